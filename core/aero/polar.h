@@ -1,0 +1,56 @@
+/* core/aero/polar.h
+ * Steady section coefficients as a table over angle of attack and plunge.
+ *
+ * `struct polar_def` is the raw table as given; `struct polar` is the prepared, immutable
+ * interpolant shared by all threads. Shape-preserving cubic (Fritsch-Carlson) in the angle, linear
+ * in the plunge; outside the grid the value of the border is held and the caller is told. */
+#ifndef AEROM_CORE_AERO_POLAR_H
+#define AEROM_CORE_AERO_POLAR_H
+
+#include "core/limits.h"
+#include "core/status.h"
+
+#include <stdbool.h>
+
+struct polar_def {
+    char name[LIMIT_NAME];
+    char hash[LIMIT_HASH]; /* content hash of the table, filled by the border; may be "" */
+    int n_alpha, n_plunge;
+    double *alpha;  /* [rad], strictly increasing   (n_alpha) */
+    double *plunge; /* v/c, strictly increasing     (n_plunge) */
+    double *cl;     /* lift coefficient             (n_alpha x n_plunge), alpha runs fastest */
+    double *cd;     /* drag coefficient             (n_alpha x n_plunge) */
+    double *cm;     /* moment about mid-chord, nose-up positive (n_alpha x n_plunge) */
+    /* Range of attached, linear behaviour: beyond it an oscillation counts as stalled. [rad] */
+    double linear_from, linear_to;
+};
+
+/* Appends what is wrong with the table. */
+void polar_def_check(const struct polar_def *def, const char *pointer, struct failure_list *out);
+/* Frees the five arrays (not the struct) and clears the pointers. Accepts a zeroed struct. */
+void polar_def_done(struct polar_def *def);
+
+struct polar;
+
+/* Prepares the interpolant from a checked table. The table is copied. */
+MUST_CHECK enum status polar_create(const struct polar_def *def, struct polar **out);
+void polar_destroy(struct polar *p);
+
+struct polar_value {
+    double cl, cd, cm;
+    double cl_slope; /* d cl / d alpha [1/rad], 0 where the value is held */
+    double cm_slope; /* d cm / d alpha [1/rad] */
+    bool outside;    /* the angle or the plunge was outside the grid */
+};
+
+/* Coefficients at one angle [rad] and plunge v/c. */
+struct polar_value polar_at(const struct polar *p, double alpha, double plunge);
+
+/* Lift coefficient and its slope only, for n stations: what the lifting line asks in its loop. */
+void polar_lift(const struct polar *p, int n, const double *alpha, const double *plunge, double *cl,
+                double *cl_slope);
+
+/* True where the angle is outside the linear range stated by the table. */
+bool polar_is_stalled(const struct polar *p, double alpha);
+
+#endif

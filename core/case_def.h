@@ -1,0 +1,132 @@
+/* core/case_def.h
+ * The complete input of one run as a checked struct: SI units and radians.
+ *
+ * A plain value. Polar and network are borrowed: they must outlive the case_def and every sim made
+ * from it. The border (api) fills it from JSON, with every default, and calls case_def_check. */
+#ifndef AEROM_CORE_CASE_DEF_H
+#define AEROM_CORE_CASE_DEF_H
+
+#include "core/aero/network.h"
+#include "core/aero/polar.h"
+#include "core/structure/laminate.h"
+
+#include <stdbool.h>
+
+enum case_kind { CASE_SIMULATION, CASE_MODES, CASE_SECTION };
+enum section_type { SECTION_STRIP };
+enum shear_model { SHEAR_CONDENSED };
+enum dynamic_type { DYNAMIC_NONE, DYNAMIC_NETWORK };
+enum wall_images { WALLS_NONE, WALLS_ROOT, WALLS_ROOT_AND_FAR };
+enum integrator { INTEGRATOR_EXPONENTIAL, INTEGRATOR_RK4_ADAPTIVE };
+enum start_type { START_REST, START_EQUILIBRIUM, START_AMPLITUDES };
+
+/* Quantities that can be recorded; a channel has one or several columns (api/channel.c names
+ * them and gives their unit). */
+enum channel {
+    CHANNEL_TIP_PLUNGE,      /* v at the free end [m] */
+    CHANNEL_TIP_TWIST,       /* theta at the free end [rad] */
+    CHANNEL_TIP_CHORDWISE,   /* u at the free end [m] */
+    CHANNEL_LIFT,            /* total, normal to the stream [N] */
+    CHANNEL_DRAG,            /* total, along the stream [N] */
+    CHANNEL_MOMENT,          /* total about mid-chord, nose-up [N m] */
+    CHANNEL_CL,              /* lift coefficient on the beam's area */
+    CHANNEL_CD,
+    CHANNEL_CM,
+    CHANNEL_MODAL_AMPLITUDE, /* one column per mode [kg^0.5 m] */
+    CHANNEL_MODAL_VELOCITY,  /* one column per mode */
+    CHANNEL_STATION_PLUNGE,  /* one column per station [m] */
+    CHANNEL_STATION_TWIST,   /* one column per station [rad] */
+    CHANNEL_STATION_ALPHA,   /* effective angle of attack, one column per station [rad] */
+    CHANNEL_STATION_INDUCED, /* induced angle w_i/V, one column per station [rad] */
+    CHANNEL_STATION_CL,
+    CHANNEL_STATION_CD,
+    CHANNEL_STATION_CM,
+    CHANNEL_COUNT
+};
+
+struct section_def {
+    enum section_type type;
+    double chord; /* width of the strip [m] */
+    int n_ply;
+    /* Angle: from the span axis, negative towards the leading edge going outboard. Plies are listed
+     * from the lower face (-y) to the upper face (+y). */
+    struct ply ply[LIMIT_PLIES];
+    enum chordwise_curvature chordwise;
+    enum shear_model shear;
+    int contour_elements; /* finite elements along the wall, default 16 */
+};
+
+struct beam_def {
+    double length; /* [m] */
+    int elements;  /* default 16 */
+    struct section_def section;
+};
+
+struct flow_def {
+    double speed;               /* V [m/s], > 0 */
+    double density;             /* [kg/m^3], default 1.225 */
+    double kinematic_viscosity; /* [m^2/s], default 1.5e-5; only for the Reynolds number */
+    double incidence;           /* alpha_0 [rad] */
+};
+
+struct aero_def {
+    const struct polar_def *polar; /* borrowed */
+    enum dynamic_type dynamic;
+    const struct network_def *network; /* borrowed, NULL unless DYNAMIC_NETWORK */
+    bool lifting_line;
+    enum wall_images walls;
+    double width;               /* distance between the root wall and the far wall [m] */
+    double tolerance;           /* of the lifting line: largest |residual| in c_l, default 1e-9 */
+    int iterations_max;         /* default 50 */
+};
+
+struct solver_def {
+    int modes;        /* default 4 */
+    double time_step; /* [s], default 2e-4 */
+    double duration;  /* [s] */
+    enum integrator integrator;
+    double tolerance; /* rk4_adaptive: largest error per time step, relative, default 1e-9 */
+    int load_order;   /* 0..4, default 1 */
+    enum start_type start;
+    int n_amplitude;               /* given entries of the next two */
+    double amplitude[LIMIT_MODES]; /* START_AMPLITUDES: modal amplitudes [kg^0.5 m] */
+    double velocity[LIMIT_MODES];  /* and velocities */
+    double modal_damping;          /* structural damping ratio of every mode, default 0, < 1 */
+    double twist_max;              /* stop rule: |tip twist| [rad], default 60 deg */
+    double plunge_max;             /* stop rule: |tip plunge| / length, default 1 */
+    double outside_max;            /* stop rule: share of the run outside the polar, default 1 */
+};
+
+struct output_def {
+    int n_channel;
+    enum channel channel[CHANNEL_COUNT];
+    int sample_every;     /* record every n-th time step, default 1 */
+    double mean_window;   /* the means are over the last so many seconds, default 1 */
+    double modal_window;  /* same for the modal contribution, default 0.2 (Fig. 14) */
+};
+
+struct case_def {
+    enum case_kind kind;
+    char name[128];
+    struct beam_def beam;
+    struct flow_def flow;
+    struct aero_def aero;
+    struct solver_def solver;
+    struct output_def output;
+};
+
+/* Fills every default. */
+void case_def_defaults(struct case_def *def);
+
+/* Appends everything that is physically wrong with the case (ranges, cross-field rules such as more
+ * modes than degrees of freedom, size of the record). Pointers are those of the contract. */
+void case_def_check(const struct case_def *def, struct failure_list *out);
+
+/* Columns of a channel for this case: 1, modes or elements. */
+int case_def_channel_columns(const struct case_def *def, enum channel channel);
+/* Time steps of the run, >= 1. */
+int case_def_steps(const struct case_def *def);
+/* Recorded samples, the initial state included. */
+int case_def_samples(const struct case_def *def);
+
+#endif

@@ -1,0 +1,42 @@
+/* core/num.h
+ * Numerical constants and one-line helpers. */
+#ifndef AEROM_CORE_NUM_H
+#define AEROM_CORE_NUM_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#define NUM_PI 3.14159265358979323846
+
+static inline double num_rad(double degrees)
+{
+    return degrees * (NUM_PI / 180.0);
+}
+
+static inline double num_deg(double radians)
+{
+    return radians * (180.0 / NUM_PI);
+}
+
+static inline double num_sq(double x)
+{
+    return x * x;
+}
+
+static inline double num_clamp(double x, double lo, double hi)
+{
+    return x < lo ? lo : (x > hi ? hi : x);
+}
+
+static inline bool num_all_finite(int n, const double *x)
+{
+    for (int i = 0; i < n; i++) {
+        if (!isfinite(x[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+#endif
