@@ -1,0 +1,164 @@
+/* server/store.h
+ * Durable storage of jobs, their queue and their results: what the server needs of a back end.
+ * Nothing above this interface knows SQL; one test suite runs against every back end.
+ *
+ * A struct store is one open database, shared by all threads. A struct store_session is one
+ * connection and belongs to one thread at a time. There is exactly one writer session; only it may
+ * be given to the functions of the groups "transactions" and "writes". Reader sessions are borrowed
+ * for one call from a pool. Statuses say what happened; store_session_message has the details of
+ * the last failure of a session for the log. Outputs are unchanged unless the status is STORE_OK.
+ */
+#ifndef AEROM_SERVER_STORE_H
+#define AEROM_SERVER_STORE_H
+
+#include "api/service.h"
+#include "server/series.h"
+
+enum store_status {
+    STORE_OK,
+    STORE_NONE,      /* no such row */
+    STORE_CONFLICT,  /* the caller no longer owns the job, or the move is not allowed */
+    STORE_NOT_READY, /* the job has no result (yet) */
+    STORE_FULL,      /* no space on the device */
+    STORE_LOCKED,    /* another process has the database open */
+    STORE_REFUSED,   /* not our database, a newer schema, a changed migration, a bad location */
+    STORE_CORRUPT,   /* stored data fail their check */
+    STORE_ERROR      /* everything else */
+};
+
+enum { STORE_MESSAGE = 512 };
+
+/* A claimed job: the right to publish its result until the lease ends or the fence moves on. */
+struct store_ticket {
+    char id[JOB_ID_SIZE];
+    int64_t fence;
+};
+
+struct store_claim {
+    struct store_ticket ticket;
+    enum case_kind kind;
+    int attempt;
+    char *case_json; /* owned by the caller, free() */
+};
+
+struct store_document {
+    const char *name; /* "summary" ... */
+    const char *json;
+};
+
+struct store_column {
+    char name[64];
+    const struct series_chunk *chunk; /* (series_chunks(n)) */
+};
+
+struct store_series {
+    double t0, step; /* [s] */
+    int n;           /* samples of each column */
+    int n_column;
+    const struct store_column *column;
+};
+
+/* All a finished job leaves behind; borrowed for the call. */
+struct store_result {
+    const char *verdict; /* "" when the kind has none */
+    double cpu_s;
+    int n_document;
+    const struct store_document *document;
+    const struct store_series *series; /* NULL when the kind records nothing */
+};
+
+/* What became of the jobs a previous process, or a lost worker, had claimed. */
+struct store_recovered {
+    int queued;    /* to be run again */
+    int failed;    /* attempts used up: failed with code "lost" */
+    int cancelled; /* were being cancelled */
+};
+
+struct store_ops;
+struct store;
+
+struct store_session {
+    const struct store_ops *ops;
+};
+
+struct store_ops {
+    /* -- sessions ------------------------------------------------------------------------------ */
+    /* The writer session; always the same one. */
+    struct store_session *(*writer)(struct store *st);
+    /* Borrows a reader, waiting for one when all are out; NULL when none can be opened. */
+    struct store_session *(*reader_take)(struct store *st);
+    void (*reader_give)(struct store *st, struct store_session *s);
+    const char *(*message)(const struct store_session *s);
+    void (*close)(struct store *st);
+
+    /* -- transactions: begin, then for each request mark + (release | undo), then commit --------
+     */
+    enum store_status (*begin)(struct store_session *s);
+    enum store_status (*mark)(struct store_session *s);
+    enum store_status (*release)(struct store_session *s);
+    enum store_status (*undo)(struct store_session *s);   /* back to the mark, mark removed */
+    enum store_status (*commit)(struct store_session *s); /* durable on STORE_OK */
+    void (*rollback)(struct store_session *s);
+    /* False once a failure has rolled the whole transaction back. */
+    bool (*in_transaction)(struct store_session *s);
+    /* Moves the log into the database file; `full` also empties the log if no reader is in it. */
+    enum store_status (*checkpoint)(struct store_session *s, bool full);
+
+    /* -- writes, inside a transaction; all times are wall microseconds ----------------------------
+     */
+    /* Accepts one case under the given new id, or finds the job that answers an equal one. */
+    enum store_status (*submit)(struct store_session *s, const struct service_submit *item,
+                                const char *new_id, int64_t now, struct service_submitted *out);
+    /* The oldest waiting job, leased to `owner`. STORE_NONE: nothing waits. */
+    enum store_status (*claim)(struct store_session *s, const char *owner, int64_t now,
+                               int64_t lease_until, struct store_claim *out);
+    /* Extends a lease. STORE_CONFLICT: the ticket is no longer valid. */
+    enum store_status (*heartbeat)(struct store_session *s, const struct store_ticket *t,
+                                   int64_t lease_until);
+    /* The ends of a claim; STORE_CONFLICT when the ticket is no longer valid, or the job is being
+     * cancelled and the end is another one than `stopped`. */
+    enum store_status (*publish)(struct store_session *s, const struct store_ticket *t,
+                                 const struct store_result *result, int64_t now);
+    enum store_status (*fail)(struct store_session *s, const struct store_ticket *t,
+                              const char *code, const char *detail, int64_t now);
+    enum store_status (*hand_back)(struct store_session *s, const struct store_ticket *t);
+    enum store_status (*stopped)(struct store_session *s, const struct store_ticket *t,
+                                 int64_t now);
+    /* Idempotent; *out is the job afterwards. STORE_NONE: no such job. */
+    enum store_status (*cancel)(struct store_session *s, const char *id, int64_t now,
+                                struct job_record *out);
+    /* Takes back every lease of another owner, and those of this one that ran out before `now`. */
+    enum store_status (*recover)(struct store_session *s, const char *owner, int64_t now,
+                                 int attempts_max, struct store_recovered *out);
+
+    /* -- reads, any session ---------------------------------------------------------------------
+     */
+    enum store_status (*get)(struct store_session *s, const char *id, struct job_record *out);
+    enum store_status (*list)(struct store_session *s, const struct service_filter *filter,
+                              struct job_record **out, int *n, bool *more);
+    enum store_status (*get_case)(struct store_session *s, const char *id, char **json);
+    enum store_status (*get_document)(struct store_session *s, const char *id, const char *name,
+                                      char **json);
+    /* Names of all recorded columns with the time base; value pointers are NULL. */
+    enum store_status (*get_series)(struct store_session *s, const char *id,
+                                    struct series_data *out);
+    /* Samples [from, from + n) of the column at `position`. */
+    enum store_status (*get_samples)(struct store_session *s, const char *id, int position,
+                                     int from, int n, double *value);
+    /* Jobs without a final state. */
+    enum store_status (*depth)(struct store_session *s, int64_t *out);
+    /* The id accepted last, "" when there is none. */
+    enum store_status (*newest_id)(struct store_session *s, char out[JOB_ID_SIZE]);
+};
+
+struct store {
+    const struct store_ops *ops;
+};
+
+/* Opens the database at "sqlite:PATH", creating it and its directory when missing, keeps other
+ * processes out, brings the schema up to date. On failure `why` says what is wrong. */
+enum store_status store_open(const char *url, struct store **out, char why[STORE_MESSAGE]);
+/* Accepts NULL. */
+void store_close(struct store *st);
+
+#endif
