@@ -32,7 +32,7 @@ RESTRICTED_HEADERS = {
     "sqlite3.h": (r"server/(store_sqlite\w*|migrate)\.[ch]", r"tests/.*"),
     "cblas.h": (r"core/la\.c", r"tests/.*"),
     "lapacke.h": (r"core/la\.c", r"tests/.*"),
-    "cjson/cJSON.h": (r"api/.*", r"tests/.*"),
+    "cjson/cJSON.h": (r"(api|cli)/.*", r"tests/.*"),
     "curl/curl.h": (r"cli/http_client\.c", r"tests/.*"),
     "pthread.h": (r"server/.*", r"tests/.*"),
     "time.h": (r"(server|cli)/.*", r"tests/.*"),

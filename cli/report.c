@@ -1,0 +1,155 @@
+#include "cli/report.h"
+
+#include <cjson/cJSON.h>
+
+#include <stdbool.h>
+#include <string.h>
+
+static const cJSON *member(const cJSON *object, const char *key)
+{
+    return cJSON_GetObjectItemCaseSensitive(object, key);
+}
+
+static const char *text_of(const cJSON *object, const char *key)
+{
+    const cJSON *item = member(object, key);
+    return cJSON_IsString(item) ? item->valuestring : "";
+}
+
+static void print_failure(FILE *out, const char *pointer, const char *detail, const char *expected,
+                          const char *got)
+{
+    (void)fprintf(out, "  %s%s%s", pointer, pointer[0] != '\0' ? ": " : "", detail);
+    if (expected[0] != '\0') {
+        (void)fprintf(out, " (expected %s", expected);
+        (void)fprintf(out, got[0] != '\0' ? ", got %s)" : "%s)", got);
+    } else if (got[0] != '\0') {
+        (void)fprintf(out, " (got %s)", got);
+    }
+    (void)fputc('\n', out);
+}
+
+void report_failures(FILE *out, const char *source, const struct failure_list *list)
+{
+    (void)fprintf(out, "aerom: %s: %d problem%s\n", source, list->total,
+                  list->total == 1 ? "" : "s");
+    for (int i = 0; i < list->count; i++) {
+        const struct failure *f = &list->item[i];
+        print_failure(out, f->pointer, f->detail, f->expected, f->got);
+    }
+    if (list->total > list->count) {
+        (void)fprintf(out, "  ... and %d more\n", list->total - list->count);
+    }
+}
+
+void report_problem(FILE *out, const char *source, long http_status, const char *body, size_t size)
+{
+    cJSON *problem = cJSON_ParseWithLength(body, size);
+    const char *detail = text_of(problem, "detail");
+    const char *title = text_of(problem, "title");
+    (void)fprintf(out, "aerom: %s: %ld %s%s%s\n", source, http_status, title,
+                  title[0] != '\0' && detail[0] != '\0' ? ": " : "",
+                  problem != NULL ? detail : body);
+    const cJSON *item = NULL;
+    cJSON_ArrayForEach(item, member(problem, "errors"))
+    {
+        print_failure(out, text_of(item, "pointer"), text_of(item, "detail"),
+                      text_of(item, "expected"), text_of(item, "got"));
+    }
+    cJSON_Delete(problem);
+}
+
+/* A number of the document, or a dash for null and for what is not there. */
+static void print_number(FILE *out, const char *format, const char *blank, const cJSON *item)
+{
+    if (cJSON_IsNumber(item)) {
+        /* The formats are the literals of this file. */
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+        (void)fprintf(out, format, item->valuedouble);
+#pragma GCC diagnostic pop
+    } else {
+        (void)fputs(blank, out);
+    }
+}
+
+static void print_modes(FILE *out, const cJSON *modes)
+{
+    const cJSON *mode = NULL;
+    int number = 0;
+    cJSON_ArrayForEach(mode, modes)
+    {
+        (void)fprintf(out, "  mode %-2d", ++number);
+        print_number(out, " %10.3f Hz", "          -   ", member(mode, "frequency_hz"));
+        (void)fprintf(out, "  %s\n", text_of(mode, "label"));
+    }
+}
+
+static void print_means(FILE *out, const cJSON *means)
+{
+    const cJSON *item = NULL;
+    if (means == NULL) {
+        return;
+    }
+    (void)fputs("means\n", out);
+    cJSON_ArrayForEach(item, means)
+    {
+        if (cJSON_IsNumber(item)) {
+            (void)fprintf(out, "  %-14s %12.5g\n", item->string, item->valuedouble);
+        }
+    }
+}
+
+static void print_damping(FILE *out, const cJSON *damping, const char *signal, const char *unit)
+{
+    const cJSON *roots = member(member(damping, signal), "roots");
+    const cJSON *root = NULL;
+    if (roots == NULL) {
+        return;
+    }
+    (void)fprintf(out, "damping of %s\n  frequency [Hz]  ratio [%%]  amplitude [%s]  residual\n",
+                  signal, unit);
+    cJSON_ArrayForEach(root, roots)
+    {
+        const cJSON *ratio = member(root, "ratio");
+        print_number(out, "  %14.3f", "               -", member(root, "frequency_hz"));
+        if (cJSON_IsNumber(ratio)) {
+            (void)fprintf(out, "  %9.3f", 100.0 * ratio->valuedouble);
+        } else {
+            (void)fputs("          -", out);
+        }
+        print_number(out, "  %13.3e", "              -", member(root, "amplitude"));
+        print_number(out, "  %8.1e\n", "         -\n", member(root, "residual"));
+    }
+}
+
+bool report_summary(FILE *out, const char *json, size_t size)
+{
+    cJSON *summary = cJSON_ParseWithLength(json, size);
+    if (!cJSON_IsObject(summary)) {
+        cJSON_Delete(summary);
+        (void)fprintf(stderr, "aerom: this is no summary: %.200s\n", json);
+        return false;
+    }
+    const cJSON *verdict = member(summary, "verdict");
+    if (cJSON_IsString(verdict)) {
+        (void)fprintf(out, "verdict: %s\n  %s\n", verdict->valuestring,
+                      text_of(summary, "verdict_reason"));
+    }
+    const cJSON *modes = member(summary, "modes");
+    if (modes != NULL) {
+        (void)fputs("natural modes\n", out);
+        print_modes(out, modes);
+    }
+    print_means(out, member(summary, "means"));
+    const cJSON *damping = member(summary, "damping");
+    print_damping(out, damping, "tip_twist", "deg");
+    print_damping(out, damping, "tip_plunge", "m");
+    const cJSON *timing = member(summary, "timing");
+    if (timing != NULL) {
+        print_number(out, "computed in %.3f s of processor time", "", member(timing, "cpu_s"));
+        print_number(out, ", %.2f us per step\n", "\n", member(timing, "us_per_step"));
+    }
+    cJSON_Delete(summary);
+    return true;
+}
