@@ -10,6 +10,11 @@
 #include "core/case_def.h"
 
 struct api_case;
+struct cJSON;
+
+/* "simulation" "modes" "section". */
+const char *case_kind_name(enum case_kind kind);
+bool case_kind_parse(const char *name, enum case_kind *out);
 
 /* Parses, fills defaults, checks. On failure *out is unchanged and *problems holds every problem
  * found (at most FAILURE_LIST_MAX), each with its JSON pointer prefixed by `prefix` ("" for a
@@ -17,6 +22,10 @@ struct api_case;
 MUST_CHECK enum status api_case_parse(const struct library *lib, const char *json, size_t size,
                                       const char *prefix, struct api_case **out,
                                       struct failure_list *problems);
+/* The same from a tree that json_parse and json_check have passed (api/json.h). */
+MUST_CHECK enum status api_case_from_tree(const struct library *lib, const struct cJSON *tree,
+                                          const char *prefix, struct api_case **out,
+                                          struct failure_list *problems);
 void api_case_destroy(struct api_case *c);
 
 const struct case_def *api_case_def(const struct api_case *c);

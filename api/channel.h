@@ -5,6 +5,9 @@
 
 #include "core/case_def.h"
 
+/* All names in the order of enum channel; ends with NULL. */
+extern const char *const channel_names[];
+
 /* Name on the wire, with its unit: "tip_twist_deg". */
 const char *channel_name(enum channel channel);
 bool channel_parse(const char *name, enum channel *out);

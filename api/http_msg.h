@@ -21,7 +21,7 @@ struct api_request {
     const char *path;   /* without the query, not decoded */
     int n_query;
     struct api_query query[API_QUERY_MAX];
-    const char *content_type;  /* NULL when absent, as are the next ones */
+    const char *content_type; /* NULL when absent, as are the next ones */
     const char *accept;
     const char *if_none_match;
     const char *body; /* not zero-terminated */

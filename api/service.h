@@ -34,19 +34,19 @@ bool job_state_parse(const char *name, enum job_state *out);
 /* Outcome of a request to the service. */
 enum service_status {
     SERVICE_OK,
-    SERVICE_NOT_FOUND,  /* no such job, result or channel */
-    SERVICE_NOT_READY,  /* the job exists and has no result yet, or will never have one */
-    SERVICE_BUSY,       /* queue full or shutting down: try again later */
+    SERVICE_NOT_FOUND, /* no such job, result or channel */
+    SERVICE_NOT_READY, /* the job exists and has no result yet, or will never have one */
+    SERVICE_BUSY,      /* queue full or shutting down: try again later */
     SERVICE_DISK_FULL,
-    SERVICE_ERROR       /* logged by the server */
+    SERVICE_ERROR /* logged by the server */
 };
 
 /* One accepted case on its way in. All text is borrowed until the callback has been called. */
 struct service_submit {
     enum case_kind kind;
-    const char *name;           /* label of the case, may be "" */
-    const char *case_json;      /* canonical case, every default filled in */
-    const char *content_hash;   /* identity of case + core + library entries, hexadecimal */
+    const char *name;         /* label of the case, may be "" */
+    const char *case_json;    /* canonical case, every default filled in */
+    const char *content_hash; /* identity of case + core + library entries, hexadecimal */
 };
 
 struct service_submitted {
@@ -62,31 +62,31 @@ struct job_record {
     enum job_state state;
     char name[128];
     char content_hash[LIMIT_HASH];
-    double progress;           /* 0..1 */
-    int attempt;               /* claims so far */
+    double progress;                             /* 0..1 */
+    int attempt;                                 /* claims so far */
     int64_t created_us, started_us, finished_us; /* UTC, 0 = not yet */
-    char verdict[24];          /* "" unless a simulation is done */
-    char error_code[40];       /* failed: stable word */
-    char error_detail[512];    /* failed: sentence with place and time */
+    char verdict[24];                            /* "" unless a simulation is done */
+    char error_code[40];                         /* failed: stable word */
+    char error_detail[512];                      /* failed: sentence with place and time */
 };
 
 struct service_filter {
-    int limit;                 /* 1..1000 */
-    const char *after;         /* id of the last job of the previous page, NULL = from the newest */
-    int kind;                  /* enum case_kind or -1 */
-    int state;                 /* enum job_state or -1 */
-    const char *name;          /* exact label or NULL */
+    int limit;         /* 1..1000 */
+    const char *after; /* id of the last job of the previous page, NULL = from the newest */
+    int kind;          /* enum case_kind or -1 */
+    int state;         /* enum job_state or -1 */
+    const char *name;  /* exact label or NULL */
 };
 
 /* Recorded series as stored: columns in presented units (api/channel.h). */
 struct series_column {
-    char name[64];             /* "tip_twist_deg", "modal_amplitude[2]" */
-    double *value;             /* (n) */
+    char name[64]; /* "tip_twist_deg", "modal_amplitude[2]" */
+    double *value; /* (n) */
 };
 
 struct series_data {
-    double t0, step;           /* time of value[0], sample distance [s] */
-    int n;                     /* samples of each column */
+    double t0, step; /* time of value[0], sample distance [s] */
+    int n;           /* samples of each column */
     int n_column;
     struct series_column *column;
 };

@@ -1,0 +1,200 @@
+#include "api/case.h"
+
+#include "api/case_fields.h"
+#include "api/hash.h"
+#include "api/json.h"
+
+#include <assert.h>
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Field tables read and print enums as int. */
+_Static_assert(sizeof(enum case_kind) == sizeof(int), "an enum is an int");
+
+const char *case_kind_name(enum case_kind kind)
+{
+    assert((unsigned)kind <= CASE_SECTION);
+    return case_kind_names[kind];
+}
+
+bool case_kind_parse(const char *name, enum case_kind *out)
+{
+    const int index = field_name_index(case_kind_names, name);
+    if (index >= 0) {
+        *out = (enum case_kind)index;
+    }
+    return index >= 0;
+}
+
+/* The bit of the document's kind, which decides what is required; 0 when it has none. */
+static unsigned kind_of(const struct cJSON *tree)
+{
+    const cJSON *kind = cJSON_GetObjectItemCaseSensitive(tree, "kind");
+    enum case_kind value = CASE_SIMULATION;
+    if (!cJSON_IsString(kind) || !case_kind_parse(kind->valuestring, &value)) {
+        return 0;
+    }
+    return 1u << value;
+}
+
+/* Whether one pointer is the other or lies under it. */
+static bool is_within(const char *inner, const char *outer)
+{
+    const size_t n = strlen(outer);
+    return strncmp(inner, outer, n) == 0 && (inner[n] == '\0' || inner[n] == '/');
+}
+
+/* Adds what the core finds, except about members that are already reported: their value is only a
+ * default there. */
+static enum status check_physics(const struct case_def *def, const char *prefix, int first,
+                                 struct failure_list *problems)
+{
+    struct failure_list *found = malloc(sizeof *found);
+    if (found == NULL) {
+        return ST_NO_MEMORY;
+    }
+    found->count = 0;
+    found->total = 0;
+    case_def_check(def, found);
+    const int last = problems->count;
+    for (int i = 0; i < found->count; i++) {
+        const struct failure *f = &found->item[i];
+        char pointer[2 * sizeof f->pointer];
+        (void)snprintf(pointer, sizeof pointer, "%s%s", prefix, f->pointer);
+        bool known = false;
+        for (int j = first; j < last; j++) {
+            known = known || is_within(pointer, problems->item[j].pointer) ||
+                    is_within(problems->item[j].pointer, pointer);
+        }
+        if (!known) {
+            failure_set(failure_add(problems), f->status, pointer, f->code, f->expected, f->got,
+                        "%s", f->detail);
+        }
+    }
+    free(found);
+    return ST_OK;
+}
+
+/* Canonical text, and over it, without the label, the identity. */
+static enum status identify(struct api_case *c)
+{
+    const unsigned kind = 1u << c->def.kind;
+    struct json_out text = {0};
+    field_write(&text, case_fields, kind | CASE_LABEL, c);
+    c->canonical = json_out_take(&text, NULL);
+
+    struct json_out identity = {0};
+    field_write(&identity, case_fields, kind, c);
+    json_string(&identity, AEROM_CORE_VERSION);
+    for (int i = 0; i < c->def.beam.section.n_ply; i++) {
+        material_write(&identity, &c->def.beam.section.ply[i].material);
+    }
+    const bool flows = c->def.kind == CASE_SIMULATION;
+    json_string(&identity, flows ? c->def.aero.polar->hash : NULL);
+    json_string(&identity, flows && c->def.aero.network != NULL ? c->def.aero.network->hash : NULL);
+    const bool ok = !identity.failed && c->canonical != NULL;
+    if (ok) {
+        hash_text(identity.text, identity.size, c->hash);
+    }
+    json_out_done(&identity);
+    return ok ? ST_OK : ST_NO_MEMORY;
+}
+
+static enum status no_memory(const char *prefix, struct failure_list *problems)
+{
+    failure_set(failure_add(problems), ST_NO_MEMORY, prefix, "no_memory", NULL, NULL, "%s",
+                status_text(ST_NO_MEMORY));
+    return ST_NO_MEMORY;
+}
+
+enum status api_case_from_tree(const struct library *lib, const struct cJSON *tree,
+                               const char *prefix, struct api_case **out,
+                               struct failure_list *problems)
+{
+    assert(lib != NULL && out != NULL && problems != NULL);
+    struct reader r;
+    const int before = problems->total, first = problems->count;
+    struct api_case *c = calloc(1, sizeof *c);
+    if (c == NULL) {
+        return no_memory(prefix, problems);
+    }
+    c->library = lib;
+    case_def_defaults(&c->def);
+    reader_init(&r, prefix, problems);
+    r.kind = kind_of(tree);
+    r.context = c;
+    field_read(&r, case_fields, tree, c);
+
+    enum status st = ST_OK;
+    /* Without a kind the core would ask for the members of the wrong one. */
+    if (r.kind != 0) {
+        st = check_physics(&c->def, prefix, first, problems);
+    }
+    if (st == ST_OK && problems->total > before) {
+        st = ST_INVALID;
+    }
+    if (st == ST_OK) {
+        st = identify(c);
+    }
+    if (st == ST_OK) {
+        *out = c;
+    } else {
+        api_case_destroy(c);
+    }
+    return st == ST_NO_MEMORY ? no_memory(prefix, problems) : st;
+}
+
+enum status api_case_parse(const struct library *lib, const char *json, size_t size,
+                           const char *prefix, struct api_case **out, struct failure_list *problems)
+{
+    struct failure fail;
+    struct cJSON *tree = NULL;
+    struct reader r;
+    enum status st = json_parse(json, size, &tree, &fail);
+    reader_init(&r, prefix, problems);
+    if (st != ST_OK) {
+        char pointer[2 * sizeof fail.pointer];
+        (void)snprintf(pointer, sizeof pointer, "%s%s", prefix, fail.pointer);
+        failure_set(failure_add(problems), st, pointer, fail.code, fail.expected, fail.got, "%s",
+                    fail.detail);
+        return st;
+    }
+    const int before = problems->total;
+    json_check(&r, tree);
+    const bool sound = problems->total == before;
+    struct api_case *c = NULL;
+    st = api_case_from_tree(lib, tree, prefix, &c, problems);
+    json_free(tree);
+    if (st == ST_OK && sound) {
+        *out = c;
+    } else {
+        api_case_destroy(c);
+    }
+    return st == ST_OK && !sound ? ST_INVALID : st;
+}
+
+void api_case_destroy(struct api_case *c)
+{
+    if (c != NULL) {
+        entry_set_done(&c->local);
+        free(c->canonical);
+        free(c);
+    }
+}
+
+const struct case_def *api_case_def(const struct api_case *c)
+{
+    return &c->def;
+}
+
+const char *api_case_canonical(const struct api_case *c)
+{
+    return c->canonical;
+}
+
+const char *api_case_hash(const struct api_case *c)
+{
+    return c->hash;
+}

@@ -1,0 +1,248 @@
+#include "api/case_fields.h"
+
+#include "api/case_refs.h"
+#include "api/channel.h"
+#include "core/num.h"
+
+#include <assert.h>
+#include <string.h>
+
+#define ANY INFINITY
+static const struct field_range version = {.min = 1, .max = 1};
+static const struct field_range positive = {.min = 0.0, .max = ANY, .above_min = true};
+static const struct field_range elements = {.min = 1, .max = LIMIT_ELEMENTS};
+static const struct field_range contour_elements = {.min = 1, .max = LIMIT_CONTOUR_ELEMENTS};
+static const struct field_range ply_angle = {.min = -180.0, .max = 180.0};
+static const struct field_range incidence = {.min = -90.0, .max = 90.0};
+static const struct field_range modes = {.min = 1, .max = LIMIT_MODES};
+static const struct field_range iterations = {.min = 1, .max = 10000};
+static const struct field_range load_order = {.min = 0, .max = LIMIT_LOAD_ORDER};
+static const struct field_range damping = {.min = 0.0, .max = 1.0, .below_max = true};
+static const struct field_range share = {.min = 0.0, .max = 1.0};
+static const struct field_range sampling = {.min = 1, .max = LIMIT_STEPS};
+
+/* In the order of the enums of core. */
+const char *const case_kind_names[] = {"simulation", "modes", "section", NULL};
+static const char *const section_names[] = {"strip", NULL};
+static const char *const chordwise_names[] = {"free", "rigid", NULL};
+static const char *const shear_names[] = {"condensed", NULL};
+static const char *const warping_names[] = {"restrained", "free", NULL};
+static const char *const dynamic_names[] = {"none", "network", NULL};
+static const char *const wall_names[] = {"none", "root", "root_and_far", NULL};
+static const char *const integrator_names[] = {"exponential", "rk4_adaptive", NULL};
+static const char *const start_names[] = {"rest", "equilibrium", "amplitudes", NULL};
+
+#define AT(member_) offsetof(struct api_case, member_)
+#define NUMBER(key_, member_, kinds_, range_, ...)                                                 \
+    {                                                                                              \
+        .key = (key_), .kind = FIELD_NUMBER, .offset = AT(member_), .kinds = (kinds_),             \
+        .range = &(range_), __VA_ARGS__                                                            \
+    }
+#define INTEGER(key_, member_, kinds_, range_)                                                     \
+    {                                                                                              \
+        .key = (key_), .kind = FIELD_INTEGER, .offset = AT(member_), .kinds = (kinds_),            \
+        .range = &(range_)                                                                         \
+    }
+#define CHOICE(key_, member_, names_, ...)                                                         \
+    {                                                                                              \
+        .key = (key_), .kind = FIELD_ENUM, .offset = AT(member_), .names = (names_), __VA_ARGS__   \
+    }
+#define OBJECT(key_, fields_, ...)                                                                 \
+    {                                                                                              \
+        .key = (key_), .kind = FIELD_OBJECT, .fields = (fields_), __VA_ARGS__                      \
+    }
+
+enum { ALL = 0, SIMULATION = CASE_IN_SIMULATION, BEAM = CASE_IN_SIMULATION | CASE_IN_MODES };
+
+static const struct field ply_fields[] = {
+    {.key = "material",
+     .kind = FIELD_CUSTOM,
+     .required = true,
+     .read = case_read_ply_material,
+     .write = case_write_ply_material},
+    {.key = "angle_deg",
+     .kind = FIELD_NUMBER,
+     .offset = offsetof(struct ply, angle),
+     .unit = FIELD_DEGREE,
+     .range = &ply_angle},
+    {.key = "thickness_m",
+     .kind = FIELD_NUMBER,
+     .required = true,
+     .offset = offsetof(struct ply, thickness),
+     .range = &positive},
+    {0},
+};
+
+static const struct field section_fields[] = {
+    CHOICE("type", def.beam.section.type, section_names, .required = true),
+    NUMBER("chord_m", def.beam.section.chord, ALL, positive, .required = true),
+    {.key = "layup",
+     .kind = FIELD_LIST,
+     .required = true,
+     .offset = AT(def.beam.section.ply),
+     .size = sizeof(struct ply),
+     .fields = ply_fields,
+     .count = AT(def.beam.section.n_ply),
+     .min = 1,
+     .max = LIMIT_PLIES},
+    CHOICE("chordwise_curvature", def.beam.section.chordwise, chordwise_names, .kinds = ALL),
+    CHOICE("shear", def.beam.section.shear, shear_names, .kinds = ALL),
+    INTEGER("contour_elements", def.beam.section.contour_elements, ALL, contour_elements),
+    {0},
+};
+
+static const struct field beam_fields[] = {
+    NUMBER("length_m", def.beam.length, BEAM, positive, .required = true),
+    INTEGER("elements", def.beam.elements, BEAM, elements),
+    CHOICE("root_warping", def.beam.root_warping, warping_names, .kinds = BEAM),
+    OBJECT("section", section_fields, .required = true),
+    {0},
+};
+
+static const struct field flow_fields[] = {
+    NUMBER("speed_m_s", def.flow.speed, SIMULATION, positive, .required = true),
+    NUMBER("density_kg_m3", def.flow.density, SIMULATION, positive, .unit = 1.0),
+    NUMBER("kinematic_viscosity_m2_s", def.flow.kinematic_viscosity, SIMULATION, positive,
+           .unit = 1.0),
+    NUMBER("incidence_deg", def.flow.incidence, SIMULATION, incidence, .unit = FIELD_DEGREE),
+    {0},
+};
+
+static bool has_network(const void *base)
+{
+    return ((const struct api_case *)base)->def.aero.dynamic == DYNAMIC_NETWORK;
+}
+
+static const struct field dynamic_fields[] = {
+    CHOICE("type", def.aero.dynamic, dynamic_names, .required = true),
+    {.key = "name",
+     .kind = FIELD_CUSTOM,
+     .required = true,
+     .applies = has_network,
+     .read = case_read_network,
+     .write = case_write_network},
+    {0},
+};
+
+static bool has_far_wall(const void *base)
+{
+    return ((const struct api_case *)base)->def.aero.walls == WALLS_ROOT_AND_FAR;
+}
+
+static const struct field lifting_line_fields[] = {
+    CHOICE("walls", def.aero.walls, wall_names, .kinds = ALL),
+    NUMBER("width_m", def.aero.width, ALL, positive, .required = true, .applies = has_far_wall),
+    NUMBER("tolerance", def.aero.tolerance, ALL, positive, .unit = 1.0),
+    INTEGER("iterations_max", def.aero.iterations_max, ALL, iterations),
+    {0},
+};
+
+static const struct field aerodynamics_fields[] = {
+    {.key = "polar",
+     .kind = FIELD_CUSTOM,
+     .required = true,
+     .kinds = SIMULATION,
+     .read = case_read_polar,
+     .write = case_write_polar},
+    OBJECT("dynamic", dynamic_fields, .kinds = SIMULATION),
+    OBJECT("lifting_line", lifting_line_fields, .kinds = SIMULATION, .nullable = true,
+           .offset = AT(def.aero.lifting_line)),
+    {0},
+};
+
+static bool has_amplitudes(const void *base)
+{
+    return ((const struct api_case *)base)->def.solver.start == START_AMPLITUDES;
+}
+
+static const struct field start_fields[] = {
+    CHOICE("type", def.solver.start, start_names, .required = true),
+    {.key = "amplitudes",
+     .kind = FIELD_ARRAY,
+     .required = true,
+     .offset = AT(def.solver.amplitude),
+     .count = AT(def.solver.n_amplitude),
+     .min = 1,
+     .max = LIMIT_MODES,
+     .applies = has_amplitudes},
+    {.key = "velocities",
+     .kind = FIELD_ARRAY,
+     .offset = AT(def.solver.velocity),
+     .count = AT(def.solver.n_amplitude),
+     .sized = true,
+     .applies = has_amplitudes},
+    {0},
+};
+
+static const struct field stop_fields[] = {
+    NUMBER("twist_max_deg", def.solver.twist_max, SIMULATION, positive, .unit = FIELD_DEGREE),
+    NUMBER("plunge_max_lengths", def.solver.plunge_max, SIMULATION, positive, .unit = 1.0),
+    NUMBER("outside_polar_max", def.solver.outside_max, SIMULATION, share, .unit = 1.0),
+    {0},
+};
+
+static const struct field solver_fields[] = {
+    INTEGER("modes", def.solver.modes, BEAM, modes),
+    NUMBER("time_step_s", def.solver.time_step, SIMULATION, positive, .unit = 1.0),
+    NUMBER("duration_s", def.solver.duration, SIMULATION, positive, .required = true),
+    CHOICE("integrator", def.solver.integrator, integrator_names, .kinds = SIMULATION),
+    NUMBER("tolerance", def.solver.tolerance, SIMULATION, positive, .unit = 1.0),
+    INTEGER("load_order", def.solver.load_order, SIMULATION, load_order),
+    OBJECT("start", start_fields, .kinds = SIMULATION),
+    NUMBER("modal_damping_ratio", def.solver.modal_damping, SIMULATION, damping, .unit = 1.0),
+    OBJECT("stop", stop_fields, .kinds = SIMULATION),
+    {0},
+};
+
+static const struct field output_fields[] = {
+    {.key = "channels",
+     .kind = FIELD_NAMES,
+     .kinds = SIMULATION,
+     .offset = AT(def.output.channel),
+     .names = channel_names,
+     .count = AT(def.output.n_channel),
+     .min = 1,
+     .max = CHANNEL_COUNT},
+    INTEGER("sample_every", def.output.sample_every, SIMULATION, sampling),
+    NUMBER("mean_window_s", def.output.mean_window, SIMULATION, positive, .unit = 1.0),
+    NUMBER("modal_window_s", def.output.modal_window, SIMULATION, positive, .unit = 1.0),
+    {0},
+};
+
+/* Definitions before what refers to them. */
+const struct field case_fields[] = {
+    {.key = "schema_version",
+     .kind = FIELD_INTEGER,
+     .required = true,
+     .offset = AT(schema_version),
+     .range = &version},
+    CHOICE("kind", def.kind, case_kind_names, .required = true),
+    {.key = "name",
+     .kind = FIELD_TEXT,
+     .kinds = CASE_LABEL,
+     .offset = AT(def.name),
+     .size = sizeof((struct case_def *)0)->name},
+    {.key = "materials",
+     .kind = FIELD_CUSTOM,
+     .omit = case_has_no_own_material,
+     .read = case_read_materials,
+     .write = case_write_materials},
+    {.key = "polars",
+     .kind = FIELD_CUSTOM,
+     .kinds = SIMULATION,
+     .omit = case_has_no_own_polar,
+     .read = case_read_polars,
+     .write = case_write_polars},
+    {.key = "networks",
+     .kind = FIELD_CUSTOM,
+     .kinds = SIMULATION,
+     .omit = case_has_no_own_network,
+     .read = case_read_networks,
+     .write = case_write_networks},
+    OBJECT("beam", beam_fields, .required = true),
+    OBJECT("flow", flow_fields, .required = true, .kinds = SIMULATION),
+    OBJECT("aerodynamics", aerodynamics_fields, .required = true, .kinds = SIMULATION),
+    OBJECT("solver", solver_fields, .required = true, .kinds = BEAM),
+    OBJECT("output", output_fields, .kinds = SIMULATION),
+    {0},
+};

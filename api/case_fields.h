@@ -1,0 +1,30 @@
+/* api/case_fields.h
+ * The case document as field tables, and the struct they fill. Inside api only. */
+#ifndef AEROM_API_CASE_FIELDS_H
+#define AEROM_API_CASE_FIELDS_H
+
+#include "api/case.h"
+#include "api/entry.h"
+#include "api/field.h"
+
+struct api_case {
+    int schema_version;
+    struct case_def def;
+    struct entry_set local; /* definitions inside the case */
+    const struct library *library;
+    char *canonical;
+    char hash[LIMIT_HASH];
+};
+
+/* Bits of `kinds`: one per enum case_kind, and one for what does not count for the identity. */
+enum case_group {
+    CASE_IN_SIMULATION = 1u << CASE_SIMULATION,
+    CASE_IN_MODES = 1u << CASE_MODES,
+    CASE_IN_SECTION = 1u << CASE_SECTION,
+    CASE_LABEL = 1u << 8
+};
+
+extern const char *const case_kind_names[]; /* ends with NULL */
+extern const struct field case_fields[];    /* of struct api_case; r->context is the case itself */
+
+#endif

@@ -1,0 +1,19 @@
+/* api/entry_fields.h
+ * The field tables of materials, polars and networks. */
+#ifndef AEROM_API_ENTRY_FIELDS_H
+#define AEROM_API_ENTRY_FIELDS_H
+
+#include "api/field.h"
+
+/* Groups of members of a polar or network document. */
+enum entry_group {
+    ENTRY_NAME = 1,
+    ENTRY_NOTES = 2, /* description, provenance */
+    ENTRY_TABLE = 4  /* what a result depends on: the content hash covers these */
+};
+
+extern const struct field material_fields[]; /* of struct material */
+extern const struct field polar_fields[];    /* of struct polar_entry */
+extern const struct field network_fields[];  /* of struct network_entry */
+
+#endif

@@ -1,0 +1,370 @@
+/* Reading side of api/field.h. */
+#include "api/field.h"
+
+#include <assert.h>
+#include <cjson/cJSON.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void *member(void *base, size_t offset)
+{
+    return (char *)base + offset;
+}
+
+static bool expect(struct reader *r, bool fits, const char *what, const cJSON *got)
+{
+    if (!fits) {
+        reader_problem(r, "wrong_type", what, got, "the value must be %s", what);
+    }
+    return fits;
+}
+
+int field_name_index(const char *const *names, const char *text)
+{
+    for (int i = 0; names[i] != NULL; i++) {
+        if (strcmp(names[i], text) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+void field_range_text(const struct field_range *range, size_t size, char *out)
+{
+    if (range->min == range->max) {
+        (void)json_number_text(range->min, out);
+        return;
+    }
+    char min[JSON_NUMBER_SIZE + 8] = "", max[JSON_NUMBER_SIZE + 8] = "", number[JSON_NUMBER_SIZE];
+    if (isfinite(range->min)) {
+        (void)json_number_text(range->min, number);
+        (void)snprintf(min, sizeof min, "%s %s ", number, range->above_min ? "<" : "<=");
+    }
+    if (isfinite(range->max)) {
+        (void)json_number_text(range->max, number);
+        (void)snprintf(max, sizeof max, " %s %s", range->below_max ? "<" : "<=", number);
+    }
+    (void)snprintf(out, size, "%sx%s", min, max);
+}
+
+static bool in_range(const struct field_range *range, double x)
+{
+    const bool low = range->above_min ? x > range->min : x >= range->min;
+    const bool high = range->below_max ? x < range->max : x <= range->max;
+    return low && high;
+}
+
+static bool check_range(struct reader *r, const struct field *f, const cJSON *json)
+{
+    char text[96];
+    if (f->range == NULL || in_range(f->range, json->valuedouble)) {
+        return true;
+    }
+    field_range_text(f->range, sizeof text, text);
+    reader_problem(r, "out_of_range", text, json, "the value is outside its range %s", text);
+    return false;
+}
+
+/* One number in SI. False when refused. */
+static bool read_number(struct reader *r, const struct field *f, const cJSON *json, double *out)
+{
+    /* A number that is not finite has been reported by json_check. */
+    if (!expect(r, cJSON_IsNumber(json), "a number", json) || !isfinite(json->valuedouble) ||
+        !check_range(r, f, json)) {
+        return false;
+    }
+    *out = f->unit > 0.0 ? json->valuedouble * f->unit : json->valuedouble;
+    return true;
+}
+
+static void read_integer(struct reader *r, const struct field *f, const cJSON *json, int *out)
+{
+    const double x = cJSON_IsNumber(json) ? json->valuedouble : (double)NAN;
+    if (isinf(x)) {
+        return;
+    }
+    if (expect(r, x == floor(x) && fabs(x) <= INT_MAX, "an integer", json) &&
+        check_range(r, f, json)) {
+        *out = (int)x;
+    }
+}
+
+/* Value of an enum by its name, -1 when refused. */
+static int read_name(struct reader *r, const char *const *names, const cJSON *json)
+{
+    char expected[128];
+    if (!expect(r, cJSON_IsString(json), "a string", json)) {
+        return -1;
+    }
+    const int index = field_name_index(names, json->valuestring);
+    if (index < 0) {
+        reader_join(names, sizeof expected, expected);
+        reader_problem(r, "unknown_value", expected, json, "the value is not one of those known");
+    }
+    return index;
+}
+
+static void read_text(struct reader *r, const struct field *f, const cJSON *json, char *out)
+{
+    if (!expect(r, cJSON_IsString(json), "a string", json)) {
+        return;
+    }
+    const size_t length = strlen(json->valuestring);
+    if (length >= f->size) {
+        char expected[48];
+        (void)snprintf(expected, sizeof expected, "at most %zu bytes", f->size - 1);
+        reader_problem(r, "too_long", expected, json, "the text has %zu bytes", length);
+    } else if (length == 0 && f->required) {
+        reader_problem(r, "empty_text", "at least one character", json, "the text is empty");
+    } else {
+        memcpy(out, json->valuestring, length + 1);
+    }
+}
+
+/* Checks an array and its length; -1 when refused. */
+static int array_length(struct reader *r, const struct field *f, const cJSON *json, int wanted)
+{
+    char expected[64];
+    if (!expect(r, cJSON_IsArray(json), "an array", json)) {
+        return -1;
+    }
+    const int n = cJSON_GetArraySize(json);
+    if (wanted >= 0 && n != wanted) {
+        (void)snprintf(expected, sizeof expected, "%d entries", wanted);
+        reader_problem(r, "wrong_length", expected, json, "the list has %d entries", n);
+        return -1;
+    }
+    if (wanted < 0 && (n < f->min || (f->max > 0 && n > f->max))) {
+        (void)snprintf(expected, sizeof expected, "%d to %d entries", f->min, f->max);
+        reader_problem(r, n == 0 ? "empty_list" : "wrong_length", expected, json,
+                       n == 0 ? "the list is empty" : "the list has %d entries", n);
+        return -1;
+    }
+    return n;
+}
+
+static bool read_numbers(struct reader *r, const struct field *f, const cJSON *json, double *out)
+{
+    bool ok = true;
+    int i = 0;
+    for (const cJSON *c = json->child; c != NULL; c = c->next, i++) {
+        const size_t mark = reader_enter_index(r, i);
+        ok = read_number(r, f, c, &out[i]) && ok;
+        reader_leave(r, mark);
+    }
+    return ok;
+}
+
+static double *allocate(struct reader *r, int n)
+{
+    double *block = calloc(n > 0 ? (size_t)n : 1, sizeof *block);
+    if (block == NULL) {
+        reader_problem(r, "no_memory", NULL, NULL, "%s", status_text(ST_NO_MEMORY));
+    }
+    return block;
+}
+
+static void read_array(struct reader *r, const struct field *f, const cJSON *json, void *base)
+{
+    int *count = member(base, f->count);
+    /* A count that could not be read has been reported; nothing can be checked against it. */
+    const int n = f->sized && *count == 0 ? -1 : array_length(r, f, json, f->sized ? *count : -1);
+    if (n < 0) {
+        return;
+    }
+    if (f->kind == FIELD_ARRAY) {
+        if (read_numbers(r, f, json, member(base, f->offset))) {
+            *count = n;
+        }
+        return;
+    }
+    double **vector = member(base, f->offset);
+    double *block = allocate(r, n);
+    if (block != NULL && read_numbers(r, f, json, block)) {
+        free(*vector);
+        *vector = block;
+        *count = n;
+    } else {
+        free(block);
+    }
+}
+
+static void read_matrix(struct reader *r, const struct field *f, const cJSON *json, void *base)
+{
+    const int *columns = member(base, f->count);
+    const int *rows = member(base, f->rows);
+    double **matrix = member(base, f->offset);
+    /* As above. */
+    if (*columns == 0 || *rows == 0 || array_length(r, f, json, *rows) < 0) {
+        return;
+    }
+    double *block = allocate(r, *rows * *columns);
+    bool ok = block != NULL;
+    int i = 0;
+    for (const cJSON *c = json->child; block != NULL && c != NULL; c = c->next, i++) {
+        const size_t mark = reader_enter_index(r, i);
+        ok = array_length(r, f, c, *columns) >= 0 &&
+             read_numbers(r, f, c, block + (ptrdiff_t)i * *columns) && ok;
+        reader_leave(r, mark);
+    }
+    if (ok) {
+        free(*matrix);
+        *matrix = block;
+    } else {
+        free(block);
+    }
+}
+
+static void read_list(struct reader *r, const struct field *f, const cJSON *json, void *base)
+{
+    int *count = member(base, f->count);
+    const int n = array_length(r, f, json, -1);
+    if (n < 0) {
+        return;
+    }
+    char *element = member(base, f->offset);
+    int i = 0;
+    for (const cJSON *c = json->child; c != NULL; c = c->next, i++) {
+        const size_t mark = reader_enter_index(r, i);
+        field_read(r, f->fields, c, element + (size_t)i * f->size);
+        reader_leave(r, mark);
+    }
+    *count = n;
+}
+
+static void read_names(struct reader *r, const struct field *f, const cJSON *json, void *base)
+{
+    int *count = member(base, f->count);
+    int *value = member(base, f->offset);
+    const int n = array_length(r, f, json, -1);
+    int used = 0;
+    const cJSON *c = n > 0 ? json->child : NULL;
+    for (int i = 0; c != NULL; c = c->next, i++) {
+        const size_t mark = reader_enter_index(r, i);
+        const int name = read_name(r, f->names, c);
+        bool twin = false;
+        for (int j = 0; j < used; j++) {
+            twin = twin || value[j] == name;
+        }
+        if (name >= 0 && twin) {
+            reader_problem(r, "duplicate_value", "distinct names", c, "the name stands twice");
+        } else if (name >= 0) {
+            value[used++] = name;
+        }
+        reader_leave(r, mark);
+    }
+    if (n > 0) {
+        *count = used;
+    }
+}
+
+static void read_object(struct reader *r, const struct field *f, const cJSON *json, void *base)
+{
+    const unsigned kind = r->kind;
+    if (f->nullable) {
+        bool *given = member(base, f->offset);
+        if (cJSON_IsNull(json)) {
+            *given = false;
+            return;
+        }
+        *given = json != NULL || *given;
+    }
+    if (f->kinds != 0 && (f->kinds & kind) == 0) {
+        r->kind = 0; /* it does not count here: nothing in it is required */
+    }
+    field_read(r, f->fields, json, base);
+    r->kind = kind;
+}
+
+static void read_value(struct reader *r, const struct field *f, const cJSON *json, void *base)
+{
+    int name = -1;
+    switch (f->kind) {
+    case FIELD_NUMBER:
+        (void)read_number(r, f, json, member(base, f->offset));
+        break;
+    case FIELD_INTEGER:
+        read_integer(r, f, json, member(base, f->offset));
+        break;
+    case FIELD_ENUM:
+        name = read_name(r, f->names, json);
+        if (name >= 0) {
+            memcpy(member(base, f->offset), &name, sizeof name);
+        }
+        break;
+    case FIELD_TEXT:
+        read_text(r, f, json, member(base, f->offset));
+        break;
+    case FIELD_OBJECT:
+        read_object(r, f, json, base);
+        break;
+    case FIELD_LIST:
+        read_list(r, f, json, base);
+        break;
+    case FIELD_NAMES:
+        read_names(r, f, json, base);
+        break;
+    case FIELD_ARRAY:
+    case FIELD_VECTOR:
+        read_array(r, f, json, base);
+        break;
+    case FIELD_MATRIX:
+        read_matrix(r, f, json, base);
+        break;
+    case FIELD_CUSTOM:
+        f->read(r, json, base);
+        break;
+    }
+}
+
+static void read_member(struct reader *r, const struct field *f, const cJSON *json, void *base)
+{
+    const bool applies = f->applies == NULL || f->applies(base);
+    if (json != NULL && !applies) {
+        reader_problem(r, "unexpected", "no such member with the other values", json,
+                       "the member does not apply here");
+    } else if (json != NULL || (f->kind == FIELD_OBJECT && f->required && applies)) {
+        read_value(r, f, json, base);
+    } else if (f->required && f->kind != FIELD_OBJECT && applies && r->kind != 0 &&
+               (f->kinds == 0 || (f->kinds & r->kind) != 0)) {
+        reader_problem(r, "required", "a value", NULL, "\"%s\" is missing", f->key);
+    }
+}
+
+static void report_unknown(struct reader *r, const struct field *fields, const cJSON *json)
+{
+    enum { KEYS_MAX = 32 };
+    const char *names[KEYS_MAX + 1] = {NULL};
+    for (int i = 0; fields[i].key != NULL; i++) {
+        assert(i < KEYS_MAX);
+        names[i] = fields[i].key;
+    }
+    for (const cJSON *c = json->child; c != NULL; c = c->next) {
+        if (field_name_index(names, c->string) < 0) {
+            char expected[128];
+            reader_join(names, sizeof expected, expected);
+            const size_t mark = reader_enter_key(r, c->string);
+            reader_problem(r, "unknown_key", expected, c, "there is no such key here");
+            reader_leave(r, mark);
+        }
+    }
+}
+
+void field_read(struct reader *r, const struct field *fields, const struct cJSON *json, void *base)
+{
+    if (json != NULL) {
+        if (!expect(r, cJSON_IsObject(json), "an object", json)) {
+            return;
+        }
+        report_unknown(r, fields, json);
+    }
+    for (const struct field *f = fields; f->key != NULL; f++) {
+        const cJSON *item = json != NULL ? cJSON_GetObjectItemCaseSensitive(json, f->key) : NULL;
+        const size_t mark = reader_enter_key(r, f->key);
+        read_member(r, f, item, base);
+        reader_leave(r, mark);
+    }
+}
