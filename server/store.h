@@ -74,6 +74,13 @@ struct store_recovered {
     int cancelled; /* were being cancelled */
 };
 
+/* When the writer offers to tidy up its log. */
+enum store_tidy {
+    STORE_TIDY_BUSY, /* after a commit with more work waiting: only when the log is long */
+    STORE_TIDY_IDLE, /* nothing to do */
+    STORE_TIDY_CLOSE /* before the end: also empty the log */
+};
+
 struct store_ops;
 struct store;
 
@@ -89,6 +96,8 @@ struct store_ops {
     struct store_session *(*reader_take)(struct store *st);
     void (*reader_give)(struct store *st, struct store_session *s);
     const char *(*message)(const struct store_session *s);
+    /* Bytes free for the database, -1 when unknown. */
+    int64_t (*space)(struct store *st);
     void (*close)(struct store *st);
 
     /* -- transactions: begin, then for each request mark + (release | undo), then commit --------
@@ -101,8 +110,8 @@ struct store_ops {
     void (*rollback)(struct store_session *s);
     /* False once a failure has rolled the whole transaction back. */
     bool (*in_transaction)(struct store_session *s);
-    /* Moves the log into the database file; `full` also empties the log if no reader is in it. */
-    enum store_status (*checkpoint)(struct store_session *s, bool full);
+    /* Moves the log into the database file as far as its readers allow, when it is due. */
+    enum store_status (*checkpoint)(struct store_session *s, enum store_tidy when);
 
     /* -- writes, inside a transaction; all times are wall microseconds ----------------------------
      */

@@ -1,0 +1,464 @@
+#include "server/service_impl.h"
+
+#include "server/clock.h"
+#include "server/id.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct service_impl {
+    struct service port;
+    struct store *store;
+    struct writer *writer;
+    struct dispatch *dispatch;
+    const struct log *log;
+    int64_t queue_limit;
+    struct id_generator ids; /* writer's thread only */
+    atomic_bool stopping;
+    atomic_bool disk_low;
+};
+
+static enum service_status service_status_of(enum store_status st)
+{
+    switch (st) {
+    case STORE_OK:
+        return SERVICE_OK;
+    case STORE_NONE:
+        return SERVICE_NOT_FOUND;
+    case STORE_NOT_READY:
+        return SERVICE_NOT_READY;
+    case STORE_FULL:
+        return SERVICE_DISK_FULL;
+    case STORE_CONFLICT:
+    case STORE_LOCKED:
+    case STORE_REFUSED:
+    case STORE_CORRUPT:
+    case STORE_ERROR:
+        break;
+    }
+    return SERVICE_ERROR;
+}
+
+/* -- writes
+ * ------------------------------------------------------------------------------------------ */
+
+struct submit_request {
+    struct write_request base;
+    struct service_impl *service;
+    service_submit_done done;
+    void *arg;
+    int n;
+    const struct service_submit *item; /* borrowed until `done` */
+    struct service_submitted result[];
+};
+
+static enum store_status submit_apply(struct write_request *r, struct store_session *s)
+{
+    struct submit_request *q = (struct submit_request *)r;
+    const int64_t now = clock_wall_us();
+    enum store_status st = STORE_OK;
+    for (int i = 0; st == STORE_OK && i < q->n; i++) {
+        char id[JOB_ID_SIZE];
+        id_next(&q->service->ids, now, id);
+        st = s->ops->submit(s, &q->item[i], id, now, &q->result[i]);
+    }
+    return st;
+}
+
+static void submit_done(struct write_request *r, enum store_status st)
+{
+    struct submit_request *q = (struct submit_request *)r;
+    struct service_impl *s = q->service;
+    int created = 0;
+    for (int i = 0; st == STORE_OK && i < q->n; i++) {
+        created += !q->result[i].reused;
+    }
+    dispatch_depth_add(s->dispatch, created - q->n); /* all n were counted when they came in */
+    if (created > 0) {
+        dispatch_ring(s->dispatch);
+    }
+    q->done(q->arg, service_status_of(st), st == STORE_OK ? q->n : 0, q->result);
+    free(q);
+}
+
+static enum service_status refusal(const struct service_impl *s, int n)
+{
+    if (atomic_load(&s->stopping) || dispatch_depth(s->dispatch) + n > s->queue_limit) {
+        return SERVICE_BUSY;
+    }
+    return atomic_load(&s->disk_low) ? SERVICE_DISK_FULL : SERVICE_OK;
+}
+
+static void service_submit(void *ctx, int n, const struct service_submit *item,
+                           service_submit_done done, void *arg)
+{
+    struct service_impl *s = ctx;
+    assert(n >= 1);
+    const enum service_status refused = refusal(s, n);
+    if (refused != SERVICE_OK) {
+        LOG(s->log, LOG_LEVEL_WARN, "submit_refused", log_i("status", refused), log_i("jobs", n));
+        done(arg, refused, 0, NULL);
+        return;
+    }
+    struct submit_request *q = calloc(1, sizeof *q + (size_t)n * sizeof q->result[0]);
+    if (q == NULL) {
+        done(arg, SERVICE_ERROR, 0, NULL);
+        return;
+    }
+    q->base = (struct write_request){.apply = submit_apply, .done = submit_done};
+    q->service = s;
+    q->done = done;
+    q->arg = arg;
+    q->n = n;
+    q->item = item;
+    dispatch_depth_add(s->dispatch, n);
+    if (!writer_post(s->writer, &q->base)) {
+        dispatch_depth_add(s->dispatch, -n);
+        free(q);
+        done(arg, SERVICE_BUSY, 0, NULL);
+    }
+}
+
+struct cancel_request {
+    struct write_request base;
+    struct service_impl *service;
+    service_cancel_done done;
+    void *arg;
+    char id[JOB_ID_SIZE];
+    int64_t now;
+    struct job_record job;
+};
+
+static enum store_status cancel_apply(struct write_request *r, struct store_session *s)
+{
+    struct cancel_request *q = (struct cancel_request *)r;
+    q->now = clock_wall_us();
+    return s->ops->cancel(s, q->id, q->now, &q->job);
+}
+
+static void cancel_done(struct write_request *r, enum store_status st)
+{
+    struct cancel_request *q = (struct cancel_request *)r;
+    struct dispatch *d = q->service->dispatch;
+    if (st == STORE_OK && q->job.state == JOB_CANCELLING) {
+        (void)dispatch_cancel(d, q->id, 0);
+    }
+    if (st == STORE_OK && q->job.state == JOB_CANCELLED && q->job.finished_us == q->now) {
+        dispatch_depth_add(d, -1); /* it was still queued: nobody else counts it off */
+    }
+    q->done(q->arg, service_status_of(st), st == STORE_OK ? &q->job : NULL);
+    free(q);
+}
+
+static void service_cancel(void *ctx, const char *id, service_cancel_done done, void *arg)
+{
+    struct service_impl *s = ctx;
+    if (strlen(id) >= JOB_ID_SIZE) {
+        done(arg, SERVICE_NOT_FOUND, NULL);
+        return;
+    }
+    struct cancel_request *q = calloc(1, sizeof *q);
+    if (q == NULL) {
+        done(arg, SERVICE_ERROR, NULL);
+        return;
+    }
+    q->base = (struct write_request){.apply = cancel_apply, .done = cancel_done};
+    q->service = s;
+    q->done = done;
+    q->arg = arg;
+    (void)snprintf(q->id, sizeof q->id, "%s", id);
+    if (!writer_post(s->writer, &q->base)) {
+        free(q);
+        done(arg, SERVICE_BUSY, NULL);
+    }
+}
+
+/* -- reads
+ * ------------------------------------------------------------------------------------------- */
+
+static struct store_session *take(const struct service_impl *s)
+{
+    struct store_session *r = s->store->ops->reader_take(s->store);
+    if (r == NULL) {
+        LOG(s->log, LOG_LEVEL_ERROR, "read_failed", log_s("message", "no reader can be opened"));
+    }
+    return r;
+}
+
+/* Returns the reader and turns the status into the port's, logging what is nobody's fault. */
+static enum service_status give(const struct service_impl *s, struct store_session *r,
+                                enum store_status st)
+{
+    const enum service_status status = service_status_of(st);
+    if (status == SERVICE_ERROR) {
+        LOG(s->log, LOG_LEVEL_ERROR, "read_failed", log_i("status", st),
+            log_s("message",
+                  st == STORE_CORRUPT ? "stored data fail their check" : r->ops->message(r)));
+    }
+    s->store->ops->reader_give(s->store, r);
+    return status;
+}
+
+static void add_progress(const struct service_impl *s, struct job_record *job)
+{
+    if (job->state == JOB_RUNNING || job->state == JOB_CANCELLING) {
+        (void)dispatch_progress(s->dispatch, job->id, &job->progress);
+    }
+}
+
+static enum service_status service_get(void *ctx, const char *id, struct job_record *out)
+{
+    const struct service_impl *s = ctx;
+    struct store_session *r = take(s);
+    if (r == NULL) {
+        return SERVICE_ERROR;
+    }
+    const enum service_status st = give(s, r, r->ops->get(r, id, out));
+    if (st == SERVICE_OK) {
+        add_progress(s, out);
+    }
+    return st;
+}
+
+static enum service_status service_list(void *ctx, const struct service_filter *filter,
+                                        struct job_record **out, int *n, bool *more)
+{
+    const struct service_impl *s = ctx;
+    struct store_session *r = take(s);
+    if (r == NULL) {
+        return SERVICE_ERROR;
+    }
+    const enum service_status st = give(s, r, r->ops->list(r, filter, out, n, more));
+    for (int i = 0; st == SERVICE_OK && i < *n; i++) {
+        add_progress(s, &(*out)[i]);
+    }
+    return st;
+}
+
+static enum service_status service_get_case(void *ctx, const char *id, char **json)
+{
+    const struct service_impl *s = ctx;
+    struct store_session *r = take(s);
+    return r == NULL ? SERVICE_ERROR : give(s, r, r->ops->get_case(r, id, json));
+}
+
+static enum service_status service_get_document(void *ctx, const char *id, const char *document,
+                                                char **json)
+{
+    const struct service_impl *s = ctx;
+    struct store_session *r = take(s);
+    return r == NULL ? SERVICE_ERROR : give(s, r, r->ops->get_document(r, id, document, json));
+}
+
+/* -- series
+ * ------------------------------------------------------------------------------------------ */
+
+/* "modal_amplitude" and "modal_amplitude[2]" both ask for the column modal_amplitude[2]. */
+static bool column_matches(const char *column, const char *asked)
+{
+    const size_t n = strlen(asked);
+    return strncmp(column, asked, n) == 0 && (column[n] == '\0' || column[n] == '[');
+}
+
+static int first_unknown(const struct series_data *all, int n_channel, const char *const *channel)
+{
+    for (int i = 0; i < n_channel; i++) {
+        bool known = false;
+        for (int j = 0; j < all->n_column; j++) {
+            known = known || column_matches(all->column[j].name, channel[i]);
+        }
+        if (!known) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static bool is_asked(const char *column, int n_channel, const char *const *channel)
+{
+    bool asked = n_channel == 0;
+    for (int i = 0; i < n_channel; i++) {
+        asked = asked || column_matches(column, channel[i]);
+    }
+    return asked;
+}
+
+/* Samples with from <= t <= to, where the ends may miss a sample's time by rounding. */
+static void window(const struct series_data *all, double from_s, double to_s, int *first, int *n)
+{
+    const double slack = 1e-6;
+    double lo = ceil((from_s - all->t0) / all->step - slack);
+    double hi = floor((to_s - all->t0) / all->step + slack);
+    lo = lo > 0.0 ? lo : 0.0;
+    hi = hi < all->n - 1 ? hi : all->n - 1;
+    *first = lo <= hi ? (int)lo : 0;
+    *n = lo <= hi ? (int)(hi - lo) + 1 : 0;
+}
+
+struct series_ask {
+    const char *id;
+    int n_channel;
+    const char *const *channel;
+    double from_s, to_s;
+};
+
+/* Keeps the asked columns of *data and fills in their samples. */
+static enum store_status read_samples(struct store_session *r, const struct series_ask *ask,
+                                      struct series_data *data)
+{
+    int first = 0, n = 0, kept = 0;
+    window(data, ask->from_s, ask->to_s, &first, &n);
+    enum store_status st = STORE_OK;
+    for (int j = 0; st == STORE_OK && j < data->n_column; j++) {
+        if (!is_asked(data->column[j].name, ask->n_channel, ask->channel)) {
+            continue;
+        }
+        double *value = malloc((size_t)(n > 0 ? n : 1) * sizeof *value);
+        data->column[kept] = data->column[j];
+        data->column[kept].value = value;
+        st = value == NULL ? STORE_ERROR : STORE_OK;
+        if (st == STORE_OK && n > 0) {
+            st = r->ops->get_samples(r, ask->id, j, first, n, value);
+        }
+        kept++;
+    }
+    data->n_column = kept;
+    data->t0 += first * data->step;
+    data->n = n;
+    return st;
+}
+
+static enum service_status service_get_series(void *ctx, const char *id, int n_channel,
+                                              const char *const *channel, double from_s,
+                                              double to_s, struct series_data *out,
+                                              int *bad_channel)
+{
+    const struct service_impl *s = ctx;
+    *bad_channel = -1;
+    struct store_session *r = take(s);
+    if (r == NULL) {
+        return SERVICE_ERROR;
+    }
+    struct series_data data = {.n = 0};
+    enum store_status st = r->ops->get_series(r, id, &data);
+    if (st == STORE_OK) {
+        *bad_channel = first_unknown(&data, n_channel, channel);
+        const struct series_ask ask = {id, n_channel, channel, from_s, to_s};
+        if (*bad_channel >= 0) {
+            st = STORE_NONE;
+            data.n_column = 0; /* no values to free */
+        } else {
+            st = read_samples(r, &ask, &data);
+        }
+    }
+    const enum service_status status = give(s, r, st);
+    if (status == SERVICE_OK) {
+        *out = data;
+    } else {
+        series_data_done(&data);
+    }
+    return status;
+}
+
+static enum service_status service_get_columns(void *ctx, const char *id, char (**out)[64], int *n)
+{
+    const struct service_impl *s = ctx;
+    struct store_session *r = take(s);
+    if (r == NULL) {
+        return SERVICE_ERROR;
+    }
+    struct series_data data = {.n = 0};
+    const enum service_status st = give(s, r, r->ops->get_series(r, id, &data));
+    if (st != SERVICE_OK) {
+        return st;
+    }
+    char(*names)[64] = calloc((size_t)data.n_column + 1, sizeof *names);
+    for (int j = 0; names != NULL && j < data.n_column; j++) {
+        memcpy(names[j], data.column[j].name, sizeof names[j]);
+    }
+    const int count = data.n_column;
+    series_data_done(&data);
+    if (names == NULL) {
+        return SERVICE_ERROR;
+    }
+    *out = names;
+    *n = count;
+    return SERVICE_OK;
+}
+
+/* -- life
+ * -------------------------------------------------------------------------------------------- */
+
+static bool service_ready(void *ctx, const char **why)
+{
+    const struct service_impl *s = ctx;
+    *why = "";
+    if (atomic_load(&s->stopping)) {
+        *why = "the daemon is stopping";
+    } else if (atomic_load(&s->disk_low)) {
+        *why = "the disk is nearly full";
+    } else if (dispatch_depth(s->dispatch) >= s->queue_limit) {
+        *why = "the queue is full";
+    }
+    return (*why)[0] == '\0';
+}
+
+struct service_impl *service_impl_create(struct store *st, struct writer *writer,
+                                         struct dispatch *dispatch, const struct log *log,
+                                         int64_t queue_limit)
+{
+    struct service_impl *s = calloc(1, sizeof *s);
+    if (s == NULL) {
+        return NULL;
+    }
+    s->port = (struct service){.ctx = s,
+                               .submit = service_submit,
+                               .cancel = service_cancel,
+                               .get = service_get,
+                               .list = service_list,
+                               .get_case = service_get_case,
+                               .get_document = service_get_document,
+                               .get_series = service_get_series,
+                               .get_columns = service_get_columns,
+                               .ready = service_ready};
+    s->store = st;
+    s->writer = writer;
+    s->dispatch = dispatch;
+    s->log = log;
+    s->queue_limit = queue_limit;
+    char newest[JOB_ID_SIZE] = "";
+    struct store_session *r = take(s);
+    if (r == NULL || give(s, r, r->ops->newest_id(r, newest)) != SERVICE_OK) {
+        free(s);
+        return NULL;
+    }
+    if (newest[0] != '\0' && !id_continue(&s->ids, newest)) {
+        LOG(log, LOG_LEVEL_WARN, "unexpected_id", log_s("id", newest));
+    }
+    return s;
+}
+
+void service_impl_destroy(struct service_impl *s)
+{
+    free(s);
+}
+
+const struct service *service_impl_port(const struct service_impl *s)
+{
+    return &s->port;
+}
+
+void service_impl_disk_low(struct service_impl *s, bool low)
+{
+    if (atomic_exchange(&s->disk_low, low) != low) {
+        LOG(s->log, LOG_LEVEL_WARN, "disk", log_s("state", low ? "nearly full" : "ok"));
+    }
+}
+
+void service_impl_stop(struct service_impl *s)
+{
+    atomic_store(&s->stopping, true);
+}
