@@ -6,9 +6,10 @@
 #ifndef AEROM_CORE_CASE_DEF_H
 #define AEROM_CORE_CASE_DEF_H
 
+#include "core/aero/lifting_line.h"
 #include "core/aero/network.h"
 #include "core/aero/polar.h"
-#include "core/structure/laminate.h"
+#include "core/structure/beam.h"
 
 #include <stdbool.h>
 
@@ -16,20 +17,19 @@ enum case_kind { CASE_SIMULATION, CASE_MODES, CASE_SECTION };
 enum section_type { SECTION_STRIP };
 enum shear_model { SHEAR_CONDENSED };
 enum dynamic_type { DYNAMIC_NONE, DYNAMIC_NETWORK };
-enum wall_images { WALLS_NONE, WALLS_ROOT, WALLS_ROOT_AND_FAR };
 enum integrator { INTEGRATOR_EXPONENTIAL, INTEGRATOR_RK4_ADAPTIVE };
 enum start_type { START_REST, START_EQUILIBRIUM, START_AMPLITUDES };
 
 /* Quantities that can be recorded; a channel has one or several columns (api/channel.c names
  * them and gives their unit). */
 enum channel {
-    CHANNEL_TIP_PLUNGE,      /* v at the free end [m] */
-    CHANNEL_TIP_TWIST,       /* theta at the free end [rad] */
-    CHANNEL_TIP_CHORDWISE,   /* u at the free end [m] */
-    CHANNEL_LIFT,            /* total, normal to the stream [N] */
-    CHANNEL_DRAG,            /* total, along the stream [N] */
-    CHANNEL_MOMENT,          /* total about mid-chord, nose-up [N m] */
-    CHANNEL_CL,              /* lift coefficient on the beam's area */
+    CHANNEL_TIP_PLUNGE,    /* v at the free end [m] */
+    CHANNEL_TIP_TWIST,     /* theta at the free end [rad] */
+    CHANNEL_TIP_CHORDWISE, /* u at the free end [m] */
+    CHANNEL_LIFT,          /* total, normal to the stream [N] */
+    CHANNEL_DRAG,          /* total, along the stream [N] */
+    CHANNEL_MOMENT,        /* total about mid-chord, nose-up [N m] */
+    CHANNEL_CL,            /* lift coefficient on the beam's area */
     CHANNEL_CD,
     CHANNEL_CM,
     CHANNEL_MODAL_AMPLITUDE, /* one column per mode [kg^0.5 m] */
@@ -57,8 +57,9 @@ struct section_def {
 };
 
 struct beam_def {
-    double length; /* [m] */
-    int elements;  /* default 16 */
+    double length;                  /* [m] */
+    int elements;                   /* default 16 */
+    enum root_warping root_warping; /* does the clamp hold the warping? default restrained */
     struct section_def section;
 };
 
@@ -75,9 +76,9 @@ struct aero_def {
     const struct network_def *network; /* borrowed, NULL unless DYNAMIC_NETWORK */
     bool lifting_line;
     enum wall_images walls;
-    double width;               /* distance between the root wall and the far wall [m] */
-    double tolerance;           /* of the lifting line: largest |residual| in c_l, default 1e-9 */
-    int iterations_max;         /* default 50 */
+    double width;       /* distance between the root wall and the far wall [m] */
+    double tolerance;   /* of the lifting line: largest |residual| in c_l, default 1e-9 */
+    int iterations_max; /* default 50 */
 };
 
 struct solver_def {
@@ -100,9 +101,9 @@ struct solver_def {
 struct output_def {
     int n_channel;
     enum channel channel[CHANNEL_COUNT];
-    int sample_every;     /* record every n-th time step, default 1 */
-    double mean_window;   /* the means are over the last so many seconds, default 1 */
-    double modal_window;  /* same for the modal contribution, default 0.2 (Fig. 14) */
+    int sample_every;    /* record every n-th time step, default 1 */
+    double mean_window;  /* the means are over the last so many seconds, default 1 */
+    double modal_window; /* same for the modal contribution, default 0.2 (Fig. 14) */
 };
 
 struct case_def {

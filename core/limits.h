@@ -9,17 +9,17 @@ enum {
     LIMIT_PLIES = 64,             /* plies of one laminate */
     LIMIT_ELEMENTS = 256,         /* beam elements = aerodynamic stations */
     LIMIT_MODES = 64,             /* modes kept */
-    LIMIT_CONTOUR_ELEMENTS = 1024,/* elements along the wall contour of a section */
+    LIMIT_CONTOUR_ELEMENTS = 256, /* elements along the wall contour of a section */
     LIMIT_POLAR_ANGLES = 2048,
     LIMIT_POLAR_PLUNGES = 64,
     LIMIT_NET_INPUTS = 16,
     LIMIT_NET_HIDDEN = 512,
     LIMIT_NET_OUTPUTS = 3,
-    LIMIT_STEPS = 10000000,       /* time steps of one run */
-    LIMIT_CHANNEL_COLUMNS = 512,  /* recorded columns, vector channels counted by component */
+    LIMIT_STEPS = 10000000,         /* time steps of one run */
+    LIMIT_CHANNEL_COLUMNS = 512,    /* recorded columns, vector channels counted by component */
     LIMIT_SERIES_VALUES = 20000000, /* recorded values of one run: 160 MB */
-    LIMIT_ROOTS = 16,             /* identified roots reported per signal */
-    LIMIT_LOAD_ORDER = 4          /* order of the load extrapolation */
+    LIMIT_ROOTS = 16,               /* identified roots reported per signal */
+    LIMIT_LOAD_ORDER = 4            /* order of the load extrapolation */
 };
 
 #endif

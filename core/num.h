@@ -29,6 +29,12 @@ static inline double num_clamp(double x, double lo, double hi)
     return x < lo ? lo : (x > hi ? hi : x);
 }
 
+/* Place of entry (i, j) in a column-major matrix of so many rows. */
+static inline ptrdiff_t num_at(int i, int j, int rows)
+{
+    return i + (ptrdiff_t)rows * j;
+}
+
 static inline bool num_all_finite(int n, const double *x)
 {
     for (int i = 0; i < n; i++) {

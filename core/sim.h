@@ -7,97 +7,65 @@
 #ifndef AEROM_CORE_SIM_H
 #define AEROM_CORE_SIM_H
 
-#include "core/case_def.h"
-
-#include <stdatomic.h>
+#include "core/analysis/damping.h"
+#include "core/analysis/verdict.h"
+#include "core/coupling/march.h"
 
 struct sim;
 
 enum mode_label { MODE_BENDING, MODE_LAG, MODE_TORSION, MODE_AXIAL, MODE_MIXED, MODE_LABEL_COUNT };
 const char *mode_label_name(enum mode_label label); /* "bending" "lag" "torsion" "axial" "mixed" */
 
-/* X(code, name on the wire) */
-#define VERDICT_LIST(X)                                                                            \
-    X(VERDICT_STABLE, "stable")                                                                    \
-    X(VERDICT_DIVERGENCE, "divergence")                                                            \
-    X(VERDICT_FLUTTER, "flutter")                                                                  \
-    X(VERDICT_STALL_FLUTTER, "stall_flutter")                                                      \
-    X(VERDICT_LIMIT_CYCLE, "limit_cycle")                                                          \
-    X(VERDICT_INDETERMINATE, "indeterminate")
-#define VERDICT_ENUM(code, name) code,
-enum verdict { VERDICT_LIST(VERDICT_ENUM) VERDICT_COUNT };
-#undef VERDICT_ENUM
-const char *verdict_name(enum verdict v);
-
-/* Why the marching ended. */
-enum stop_reason { STOP_DURATION, STOP_AMPLITUDE, STOP_OUTSIDE_POLAR, STOP_NOT_FINITE,
-                   STOP_REASON_COUNT };
 const char *stop_reason_name(enum stop_reason r); /* "duration" "amplitude" ... */
 
 enum wash { WASH_NONE, WASH_OUT, WASH_IN };
 const char *wash_name(enum wash w); /* "none" "wash_out" "wash_in" */
 
-enum { SECTION_STRAINS = 7,    /* w' psi' phi' theta' theta'' gamma_xz gamma_yz */
-       SECTION_CLASSICAL = 5,  /* w' psi' phi' theta' theta'' with the shears condensed */
-       SECTION_MASS = 7,       /* u v w v' u' theta theta' (A.35) */
-       MODE_SAMPLES = 33 };    /* equidistant points of a reported mode shape, root and tip included */
+enum {
+    SECTION_STRAINS = 7,   /* w' psi' phi' theta' theta'' gamma_xz gamma_yz */
+    SECTION_CLASSICAL = 5, /* w' psi' phi' theta' theta'' with the shears condensed */
+    SECTION_MASS = 7,      /* u v w v' u' theta theta' (A.35) */
+    MODE_SAMPLES = 33
+}; /* equidistant points of a reported mode shape, root and tip included */
 
 struct section_result {
-    double stiffness[SECTION_STRAINS * SECTION_STRAINS];             /* column-major, SI */
+    double stiffness[SECTION_STRAINS * SECTION_STRAINS]; /* column-major, SI */
     double stiffness_condensed[SECTION_CLASSICAL * SECTION_CLASSICAL];
     double mass[SECTION_MASS * SECTION_MASS];
-    double mass_per_length;        /* [kg/m] */
-    double thickness;              /* of the wall [m] */
+    double mass_per_length; /* [kg/m] */
+    double thickness;       /* of the wall [m] */
     /* With axial force and the other curvatures free: [N m^2] */
     double ei_flap, ei_lag, gj;
-    double bend_twist;             /* flap curvature - twist rate coupling, axial force free [N m^2] */
-    enum wash wash;                /* sense of the bend-twist coupling under upward load */
+    double bend_twist; /* flap curvature - twist rate coupling, axial force free [N m^2] */
+    enum wash wash;    /* sense of the bend-twist coupling under upward load */
 };
 
 struct mode_result {
     double frequency_hz;
     enum mode_label label;
-    double modal_mass;             /* of the shape scaled to a largest tip component of one [kg], */
-                                   /* twist counted as theta times the chord */
-    double share[4];               /* kinetic energy in bending, lag, torsion, axial; sums to 1 */
-    double plunge[MODE_SAMPLES];   /* v of the mass-normalised mode */
-    double chordwise[MODE_SAMPLES];/* u */
-    double twist[MODE_SAMPLES];    /* theta */
-};
-
-struct root_result {
-    double frequency_hz; /* damped frequency, 0 for a real root */
-    double ratio;        /* damping ratio -Re(lambda)/|lambda|; negative grows */
-    double amplitude;    /* at the start of the window, in the unit of the signal */
-    double residual;     /* rms of the signal the whole fit leaves, relative to its rms */
-};
-
-/* Damping of one signal by the matrix pencil, with two cross-checks. */
-struct damping_result {
-    int n_root;
-    struct root_result root[LIMIT_ROOTS]; /* by falling amplitude */
-    int torsion;            /* index of the root nearest the first torsion mode, -1 if none */
-    double window_from;     /* [s] */
-    double window_to;
-    double hilbert_ratio;   /* slope of the envelope of the dominant root, NaN if not usable */
-    double log_decrement;   /* from the peaks of the signal, NaN if fewer than 3 */
+    double modal_mass;           /* of the shape scaled to a largest tip component of one [kg], */
+                                 /* twist counted as theta times the chord */
+    double share[4];             /* kinetic energy in bending, lag, torsion, axial; sums to 1 */
+    double plunge[MODE_SAMPLES]; /* v of the mass-normalised mode */
+    double chordwise[MODE_SAMPLES]; /* u */
+    double twist[MODE_SAMPLES];     /* theta */
 };
 
 struct sim_counters {
-    long outside_polar;       /* station-steps whose angle or plunge left the polar */
-    long outside_hull;        /* station-steps outside the training hull of the network */
-    long not_converged;       /* steps whose lifting line missed its tolerance */
+    long outside_polar; /* station-steps whose angle or plunge left the polar */
+    long outside_hull;  /* station-steps outside the training hull of the network */
+    long not_converged; /* steps whose lifting line missed its tolerance */
     long lifting_line_iterations;
-    long inner_steps;         /* of rk4_adaptive */
+    long inner_steps;             /* of rk4_adaptive */
     double lifting_line_residual; /* largest, in c_l */
 };
 
 struct sim_result {
     enum verdict verdict;
-    char verdict_reason[256];  /* the numbers that decided, in one sentence */
+    char verdict_reason[VERDICT_REASON]; /* the numbers that decided, in one sentence */
     enum stop_reason stop;
-    double stop_time;          /* [s] */
-    double e_star;             /* E_l (h/c)^3 / (rho V^2 / 2), E_l of the stiffest ply */
+    double stop_time; /* [s] */
+    double e_star;    /* E_l (h/c)^3 / (rho V^2 / 2), E_l of the stiffest ply */
     double reynolds;
     struct section_result section;
     int n_mode;
@@ -115,13 +83,7 @@ struct sim_result {
     /* The record: column j of the case's channels, in order; n_sample values each; SI, radians. */
     int n_column;
     int n_sample;
-    double sample_step;        /* [s]; sample i is at time i * sample_step */
-};
-
-/* How the caller watches and stops a run. Both pointers may be NULL. */
-struct sim_control {
-    const atomic_bool *cancel;     /* set to true by another thread to stop */
-    _Atomic double *progress;      /* receives 0..1 */
+    double sample_step; /* [s]; sample i is at time i * sample_step */
 };
 
 /* Builds everything the case asks for. On failure *out is unchanged and *fail says why. */

@@ -56,12 +56,9 @@ struct network;
 MUST_CHECK enum status network_create(const struct network_def *def, struct network **out);
 void network_destroy(struct network *net);
 
-/* Bytes of scratch that network_eval needs for up to n stations, a multiple of 64. */
-size_t network_scratch_size(const struct network *net, int n);
-
 /* Evaluates n stations. x holds NET_IN_COUNT rows of n values (row i = input i, in the units of the
- * list above); y receives NET_OUT_COUNT rows of n values (absent outputs are set to zero). scratch
- * is 64-byte aligned. Returns how many stations were outside the training hull. */
-int network_eval(const struct network *net, int n, const double *x, double *y, void *scratch);
+ * list above); y receives NET_OUT_COUNT rows of n values (absent outputs are set to zero). Returns
+ * how many stations were outside the training hull. Allocates nothing. */
+int network_eval(const struct network *net, int n, const double *x, double *y);
 
 #endif

@@ -1,0 +1,129 @@
+#include "core/analysis/verdict.h"
+
+#include "core/analysis/damping.h"
+#include "core/num.h"
+
+#include <assert.h>
+#include <stdio.h>
+
+static const double growth_tolerance = 0.05; /* ln of the ratio of fluctuations, third to third */
+static const double twist_floor = 3.5e-4;    /* rms twist that counts as rest: 0.02 degrees [rad] */
+static const double plunge_floor = 1e-4;     /* rms plunge that counts as rest, share of length */
+static const double stalled_share = 0.05;    /* of the steps of the last third */
+
+static const char *const names[VERDICT_COUNT] = {
+#define ROW(code, name) [code] = name,
+    VERDICT_LIST(ROW)
+#undef ROW
+};
+
+const char *verdict_name(enum verdict v)
+{
+    assert((unsigned)v < VERDICT_COUNT);
+    return names[v];
+}
+
+/* Fluctuation of one signal over the thirds of the record. */
+struct thirds {
+    double rms[3];
+    double growth; /* ln(rms[2]/rms[1]); 0 when at rest */
+    bool at_rest;  /* the last third is below the floor */
+};
+
+static struct thirds thirds_of(const struct record *r, int column, double floor)
+{
+    const double *y = record_history(r, column);
+    struct thirds t;
+    for (int k = 0; k < 3; k++) {
+        t.rms[k] = damping_fluctuation(y, r->n * k / 3, r->n * (k + 1) / 3);
+    }
+    t.at_rest = t.rms[2] <= floor;
+    t.growth = t.rms[1] > 0.0 && t.rms[2] > 0.0 ? log(t.rms[2] / t.rms[1]) : 0.0;
+    return t;
+}
+
+static double stalled_in_last_third(const struct record *r)
+{
+    const int from = r->n * 2 / 3;
+    int count = 0;
+    for (int i = from; i < r->n; i++) {
+        count += r->stalled[i];
+    }
+    return (double)count / (r->n - from);
+}
+
+/* Path over net way of the twist in the last period of the first mode: 1 for a monotone run-away.
+ */
+static double to_and_fro(const struct march *march)
+{
+    const struct record *r = march->record;
+    const double *y = record_history(r, HISTORY_TWIST);
+    const double period = 2.0 * NUM_PI / march->model->modes.omega[0];
+    const double steps = period / march->model->def.solver.time_step;
+    const int from = steps < r->n ? r->n - (int)steps : 0;
+    double path = 0.0;
+    for (int i = from + 1; i < r->n; i++) {
+        path += fabs(y[i] - y[i - 1]);
+    }
+    return path / fmax(fabs(y[r->n - 1] - y[from]), 1e-12);
+}
+
+static enum verdict of_blow_up(const struct march *march, double stalled, char *reason)
+{
+    const double ratio = to_and_fro(march);
+    const double time = march->steps * march->model->def.solver.time_step;
+    const bool swings = ratio > 2.0;
+    (void)snprintf(reason, VERDICT_REASON,
+                   "%s at %.4g s; in the last period of the first mode the tip twist moved %.2g "
+                   "times its net way; stalled in %.0f %% of the last third",
+                   march->stop == STOP_AMPLITUDE ? "the amplitude limit was passed"
+                                                 : "the state was no longer finite",
+                   time, ratio, 100.0 * stalled);
+    if (!swings) {
+        return VERDICT_DIVERGENCE;
+    }
+    return stalled > stalled_share ? VERDICT_STALL_FLUTTER : VERDICT_FLUTTER;
+}
+
+enum verdict verdict_of(const struct march *march, char reason[VERDICT_REASON])
+{
+    const struct model *m = march->model;
+    const struct record *r = march->record;
+    const double stalled = stalled_in_last_third(r);
+    if (march->stop == STOP_AMPLITUDE || march->stop == STOP_NOT_FINITE) {
+        return of_blow_up(march, stalled, reason);
+    }
+    const double periods =
+        march->steps * m->def.solver.time_step * m->modes.omega[0] / (2.0 * NUM_PI);
+    if (periods < VERDICT_PERIODS) {
+        (void)snprintf(reason, VERDICT_REASON,
+                       "the run covers %.2g periods of the first mode, a verdict needs %d", periods,
+                       VERDICT_PERIODS);
+        return VERDICT_INDETERMINATE;
+    }
+    const struct thirds twist = thirds_of(r, HISTORY_TWIST, twist_floor);
+    const struct thirds plunge = thirds_of(r, HISTORY_PLUNGE, plunge_floor * m->def.beam.length);
+    /* The worse of the two: what still moves and grows faster. */
+    const bool twist_leads = plunge.at_rest || (!twist.at_rest && twist.growth >= plunge.growth);
+    const struct thirds *lead = twist_leads ? &twist : &plunge;
+    const double unit = twist_leads ? num_deg(1.0) : 1e3;
+    (void)snprintf(reason, VERDICT_REASON,
+                   "rms fluctuation of tip %s by thirds of the record: %.3g, %.3g, %.3g %s "
+                   "(growth %+.3f, limit %.2f); stalled in %.0f %% of the last third",
+                   twist_leads ? "twist" : "plunge", unit * lead->rms[0], unit * lead->rms[1],
+                   unit * lead->rms[2], twist_leads ? "deg" : "mm", lead->growth, growth_tolerance,
+                   100.0 * stalled);
+    const bool outside =
+        march->stop == STOP_OUTSIDE_POLAR || (double)march->outside_steps > 0.5 * march->steps;
+    if (lead->at_rest || lead->growth < -growth_tolerance) {
+        return outside ? VERDICT_DIVERGENCE : VERDICT_STABLE;
+    }
+    if (stalled > stalled_share) {
+        return VERDICT_STALL_FLUTTER;
+    }
+    if (lead->growth > growth_tolerance) {
+        return VERDICT_FLUTTER;
+    }
+    const bool changed = fabs(log(lead->rms[2] / fmax(lead->rms[0], 1e-300))) > 0.2;
+    return changed ? VERDICT_LIMIT_CYCLE : VERDICT_INDETERMINATE;
+}

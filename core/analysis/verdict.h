@@ -1,0 +1,35 @@
+/* core/analysis/verdict.h
+ * From the histories of a run to one word and the numbers that decided it. */
+#ifndef AEROM_CORE_ANALYSIS_VERDICT_H
+#define AEROM_CORE_ANALYSIS_VERDICT_H
+
+#include "core/coupling/march.h"
+
+/* X(code, name on the wire) */
+#define VERDICT_LIST(X)                                                                            \
+    X(VERDICT_STABLE, "stable")                                                                    \
+    X(VERDICT_DIVERGENCE, "divergence")                                                            \
+    X(VERDICT_FLUTTER, "flutter")                                                                  \
+    X(VERDICT_STALL_FLUTTER, "stall_flutter")                                                      \
+    X(VERDICT_LIMIT_CYCLE, "limit_cycle")                                                          \
+    X(VERDICT_INDETERMINATE, "indeterminate")
+#define VERDICT_ENUM(code, name) code,
+enum verdict { VERDICT_LIST(VERDICT_ENUM) VERDICT_COUNT };
+#undef VERDICT_ENUM
+
+const char *verdict_name(enum verdict v);
+
+/* Rules, in this order (thirds are of the record; fluctuation is rms about the mean):
+ *  - stopped by amplitude or a number that is not finite: the last period of the first mode swings
+ *    to and fro -> flutter (stall_flutter if stalled), else divergence;
+ *  - shorter than VERDICT_PERIODS periods of the first mode: indeterminate;
+ *  - the fluctuation of twist or plunge grows from the second to the last third -> flutter, or
+ *    stall_flutter when stations were stalled;
+ *  - it stays and is above the floor -> stall_flutter when stalled, limit_cycle when it differs
+ *    from the first third, else indeterminate;
+ *  - it decays or is below the floor: divergence when the span sits outside the polar, else stable.
+ * `reason` receives one sentence with the numbers. */
+enum { VERDICT_PERIODS = 3, VERDICT_REASON = 256 };
+enum verdict verdict_of(const struct march *march, char reason[VERDICT_REASON]);
+
+#endif

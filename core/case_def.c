@@ -1,0 +1,260 @@
+#include "core/case_def.h"
+
+#include "core/num.h"
+
+#include <stdio.h>
+#include <string.h>
+
+void case_def_defaults(struct case_def *def)
+{
+    *def = (struct case_def){
+        .kind = CASE_SIMULATION,
+        .beam = {.elements = 16,
+                 .root_warping = ROOT_WARPING_RESTRAINED,
+                 .section = {.type = SECTION_STRIP,
+                             .chordwise = CHORDWISE_FREE,
+                             .shear = SHEAR_CONDENSED,
+                             .contour_elements = 16}},
+        .flow = {.density = 1.225, .kinematic_viscosity = 1.5e-5},
+        .aero = {.dynamic = DYNAMIC_NONE,
+                 .lifting_line = true,
+                 .walls = WALLS_ROOT,
+                 .tolerance = 1e-9,
+                 .iterations_max = 50},
+        .solver = {.modes = 4,
+                   .time_step = 2e-4,
+                   .integrator = INTEGRATOR_EXPONENTIAL,
+                   .tolerance = 1e-9,
+                   .load_order = 1,
+                   .start = START_REST,
+                   .twist_max = num_rad(60.0),
+                   .plunge_max = 1.0,
+                   .outside_max = 1.0},
+        .output = {.n_channel = 5,
+                   .channel = {CHANNEL_TIP_PLUNGE, CHANNEL_TIP_TWIST, CHANNEL_CL, CHANNEL_CM,
+                               CHANNEL_CD},
+                   .sample_every = 1,
+                   .mean_window = 1.0,
+                   .modal_window = 0.2},
+    };
+}
+
+int case_def_channel_columns(const struct case_def *def, enum channel channel)
+{
+    if (channel == CHANNEL_MODAL_AMPLITUDE || channel == CHANNEL_MODAL_VELOCITY) {
+        return def->solver.modes;
+    }
+    return channel >= CHANNEL_STATION_PLUNGE ? def->beam.elements : 1;
+}
+
+/* Steps as a double: the case may ask for more than an int holds. */
+static double wanted_steps(const struct case_def *def)
+{
+    return fmax(1.0, ceil(def->solver.duration / def->solver.time_step - 1e-6));
+}
+
+int case_def_steps(const struct case_def *def)
+{
+    return (int)fmin(wanted_steps(def), LIMIT_STEPS);
+}
+
+int case_def_samples(const struct case_def *def)
+{
+    return case_def_steps(def) / def->output.sample_every + 1;
+}
+
+/* One rule over a number: lo < or <= value < or <= hi. */
+struct range {
+    const char *pointer;
+    double value;
+    double lo, hi;
+    bool open_lo, open_hi; /* the bound itself is not allowed */
+};
+
+static void check_range(const struct range *r, struct failure_list *out)
+{
+    const bool low = r->open_lo ? r->value > r->lo : r->value >= r->lo;
+    const bool high = r->open_hi ? r->value < r->hi : r->value <= r->hi;
+    if (isfinite(r->value) && low && high) {
+        return;
+    }
+    char expected[96], got[64];
+    if (isfinite(r->hi)) {
+        (void)snprintf(expected, sizeof expected, "a number %s %.10g and %s %.10g",
+                       r->open_lo ? ">" : ">=", r->lo, r->open_hi ? "<" : "<=", r->hi);
+    } else {
+        (void)snprintf(expected, sizeof expected, "a finite number %s %.10g",
+                       r->open_lo ? ">" : ">=", r->lo);
+    }
+    (void)snprintf(got, sizeof got, "%.10g", r->value);
+    failure_set(failure_add(out), ST_INVALID, r->pointer, "out_of_range", expected, got,
+                "the value is outside its range");
+}
+
+static void check_ranges(size_t n, const struct range *r, struct failure_list *out)
+{
+    for (size_t i = 0; i < n; i++) {
+        check_range(&r[i], out);
+    }
+}
+
+#define CHECK_RANGES(table, out) check_ranges(sizeof(table) / sizeof((table)[0]), table, out)
+
+static void check_section(const struct section_def *s, struct failure_list *out)
+{
+    const struct range rule[] = {
+        {"/beam/section/chord_m", s->chord, 0.0, INFINITY, true, false},
+        {"/beam/section/contour_elements", s->contour_elements, 1, LIMIT_CONTOUR_ELEMENTS, false,
+         false},
+        {"/beam/section/layup", s->n_ply, 1, LIMIT_PLIES, false, false},
+    };
+    CHECK_RANGES(rule, out);
+    for (int i = 0; i < s->n_ply && i < LIMIT_PLIES; i++) {
+        char angle[64], thickness[64], material[64];
+        (void)snprintf(angle, sizeof angle, "/beam/section/layup/%d/angle_deg", i);
+        (void)snprintf(thickness, sizeof thickness, "/beam/section/layup/%d/thickness_m", i);
+        (void)snprintf(material, sizeof material, "/beam/section/layup/%d/material", i);
+        const struct range ply[] = {
+            {angle, num_deg(s->ply[i].angle), -180.0, 180.0, false, false},
+            {thickness, s->ply[i].thickness, 0.0, INFINITY, true, false},
+        };
+        CHECK_RANGES(ply, out);
+        material_check(&s->ply[i].material, material, out);
+    }
+}
+
+static void check_beam(const struct case_def *def, struct failure_list *out)
+{
+    const struct range rule[] = {
+        {"/beam/length_m", def->beam.length, 0.0, INFINITY, true, false},
+        {"/beam/elements", def->beam.elements, 1, LIMIT_ELEMENTS, false, false},
+        {"/solver/modes", def->solver.modes, 1, LIMIT_MODES, false, false},
+    };
+    CHECK_RANGES(rule, out);
+    const int freedoms = BEAM_NODE_FREEDOMS * def->beam.elements;
+    if (def->solver.modes > freedoms && def->beam.elements >= 1 &&
+        def->solver.modes <= LIMIT_MODES) {
+        char expected[64], got[32];
+        (void)snprintf(expected, sizeof expected, "at most %d", freedoms);
+        (void)snprintf(got, sizeof got, "%d", def->solver.modes);
+        failure_set(failure_add(out), ST_INVALID, "/solver/modes", "too_many_modes", expected, got,
+                    "%d elements have %d degrees of freedom", def->beam.elements, freedoms);
+    }
+}
+
+static void check_flow(const struct case_def *def, struct failure_list *out)
+{
+    const struct flow_def *f = &def->flow;
+    const struct range rule[] = {
+        {"/flow/speed_m_s", f->speed, 0.0, INFINITY, true, false},
+        {"/flow/density_kg_m3", f->density, 0.0, INFINITY, false, false},
+        {"/flow/kinematic_viscosity_m2_s", f->kinematic_viscosity, 0.0, INFINITY, true, false},
+        {"/flow/incidence_deg", num_deg(f->incidence), -90.0, 90.0, false, false},
+    };
+    CHECK_RANGES(rule, out);
+}
+
+static void check_aero(const struct case_def *def, struct failure_list *out)
+{
+    const struct aero_def *a = &def->aero;
+    const struct range rule[] = {
+        {"/aerodynamics/lifting_line/tolerance", a->tolerance, 0.0, 1.0, true, true},
+        {"/aerodynamics/lifting_line/iterations_max", a->iterations_max, 1, 1000, false, false},
+    };
+    if (a->lifting_line) {
+        CHECK_RANGES(rule, out);
+    }
+    if (a->lifting_line && a->walls == WALLS_ROOT_AND_FAR && !(a->width > def->beam.length)) {
+        char got[32];
+        (void)snprintf(got, sizeof got, "%.10g", a->width);
+        failure_set(failure_add(out), ST_INVALID, "/aerodynamics/lifting_line/width_m",
+                    "out_of_range", "more than beam.length_m", got,
+                    "the far wall must stand beyond the tip");
+    }
+    if (a->polar == NULL) {
+        failure_set(failure_add(out), ST_INVALID, "/aerodynamics/polar", "missing",
+                    "the name of a polar", NULL, "a simulation needs a polar");
+    }
+    if (a->dynamic == DYNAMIC_NETWORK && a->network == NULL) {
+        failure_set(failure_add(out), ST_INVALID, "/aerodynamics/dynamic/name", "missing",
+                    "the name of a network", NULL, "the dynamic part asks for a network");
+    }
+}
+
+/* The record and the history must fit: said before the work is queued. */
+static void check_size(const struct case_def *def, struct failure_list *out)
+{
+    const double steps = wanted_steps(def);
+    const double kept = (steps + 1.0) * (5.0 + 2.0 * def->solver.modes);
+    if (steps > LIMIT_STEPS || kept > LIMIT_SERIES_VALUES) {
+        char got[64];
+        (void)snprintf(got, sizeof got, "%.0f steps", steps);
+        failure_set(failure_add(out), ST_LIMIT, "/solver/duration_s", "too_long",
+                    "fewer steps: shorter duration_s, longer time_step_s or fewer modes", got,
+                    "the run would keep %.0f values, the limit is %d", kept, LIMIT_SERIES_VALUES);
+        return;
+    }
+    double columns = 0.0;
+    for (int i = 0; i < def->output.n_channel; i++) {
+        columns += case_def_channel_columns(def, def->output.channel[i]);
+    }
+    const double values = columns * (steps / def->output.sample_every + 1.0);
+    if (columns > LIMIT_CHANNEL_COLUMNS || values > LIMIT_SERIES_VALUES) {
+        char got[96];
+        (void)snprintf(got, sizeof got, "%.0f columns, %.0f values", columns, values);
+        failure_set(failure_add(out), ST_LIMIT, "/output/sample_every", "record_too_large",
+                    "a larger sample_every or fewer channels", got,
+                    "the record may hold %d columns and %d values", LIMIT_CHANNEL_COLUMNS,
+                    LIMIT_SERIES_VALUES);
+    }
+}
+
+static void check_solver(const struct case_def *def, struct failure_list *out)
+{
+    const struct solver_def *s = &def->solver;
+    const struct output_def *o = &def->output;
+    const struct range rule[] = {
+        {"/solver/time_step_s", s->time_step, 0.0, INFINITY, true, false},
+        {"/solver/duration_s", s->duration, 0.0, INFINITY, true, false},
+        {"/solver/tolerance", s->tolerance, 1e-15, 1.0, false, true},
+        {"/solver/load_order", s->load_order, 0, LIMIT_LOAD_ORDER, false, false},
+        {"/solver/modal_damping_ratio", s->modal_damping, 0.0, 1.0, false, true},
+        {"/solver/stop/twist_max_deg", num_deg(s->twist_max), 0.0, 180.0 + 1e-9, true, false},
+        {"/solver/stop/plunge_max_lengths", s->plunge_max, 0.0, INFINITY, true, false},
+        {"/solver/stop/outside_polar_max", s->outside_max, 0.0, 1.0, false, false},
+        {"/output/sample_every", o->sample_every, 1, LIMIT_STEPS, false, false},
+        {"/output/mean_window_s", o->mean_window, 0.0, INFINITY, true, false},
+        {"/output/modal_window_s", o->modal_window, 0.0, INFINITY, true, false},
+        {"/output/channels", o->n_channel, 0, CHANNEL_COUNT, false, false},
+    };
+    const int before = out->total;
+    CHECK_RANGES(rule, out);
+    if (s->start == START_AMPLITUDES && s->n_amplitude > s->modes) {
+        char got[32];
+        (void)snprintf(got, sizeof got, "%d values", s->n_amplitude);
+        failure_set(failure_add(out), ST_INVALID, "/solver/start/amplitudes", "too_many",
+                    "at most one per mode", got, "more amplitudes than modes");
+    }
+    for (int i = 0; i < s->n_amplitude && i < LIMIT_MODES; i++) {
+        if (!isfinite(s->amplitude[i]) || !isfinite(s->velocity[i])) {
+            failure_set(failure_add(out), ST_INVALID, "/solver/start", "not_finite",
+                        "finite numbers", NULL, "start value %d is not finite", i);
+        }
+    }
+    if (out->total == before) {
+        check_size(def, out);
+    }
+}
+
+void case_def_check(const struct case_def *def, struct failure_list *out)
+{
+    check_section(&def->beam.section, out);
+    if (def->kind != CASE_SECTION) {
+        check_beam(def, out);
+    }
+    if (def->kind == CASE_SIMULATION) {
+        check_flow(def, out);
+        check_aero(def, out);
+        check_solver(def, out);
+    }
+}

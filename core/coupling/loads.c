@@ -1,0 +1,203 @@
+#include "core/coupling/loads.h"
+
+#include "core/num.h"
+
+#include <assert.h>
+#include <string.h>
+
+/* out (n_station) += factor * shape (n_station x n_mode) * modal (n_mode). */
+static void to_stations(const struct model *m, const double *shape, const double *modal,
+                        double factor, double *restrict out)
+{
+    for (int j = 0; j < m->n_mode; j++) {
+        const double *restrict column = shape + num_at(0, j, m->n_station);
+        const double a = factor * modal[j];
+        for (int i = 0; i < m->n_station; i++) {
+            out[i] += a * column[i];
+        }
+    }
+}
+
+static void fill(int n, double value, double *x)
+{
+    for (int i = 0; i < n; i++) {
+        x[i] = value;
+    }
+}
+
+/* alpha_s = alpha_0 + theta - v_dot/V, plunge v/c and v_dot/V. */
+static void kinematics(const struct model *m, struct workspace *w)
+{
+    const int n = w->n_station;
+    const double speed = m->def.flow.speed, chord = m->def.beam.section.chord;
+    fill(n, 0.0, w->plunge);
+    fill(n, 0.0, w->plunge_rate);
+    fill(n, m->def.flow.incidence, w->alpha_geometric);
+    to_stations(m, m->station_v, w->q, 1.0 / chord, w->plunge);
+    to_stations(m, m->station_v, w->qd, 1.0 / speed, w->plunge_rate);
+    to_stations(m, m->station_theta, w->q, 1.0, w->alpha_geometric);
+    for (int i = 0; i < n; i++) {
+        w->alpha_geometric[i] -= w->plunge_rate[i];
+    }
+}
+
+static void solve_induced(const struct model *m, struct workspace *w)
+{
+    const size_t bytes = (size_t)w->n_station * sizeof *w->alpha;
+    if (m->lifting_line.n == 0) {
+        memcpy(w->alpha, w->alpha_geometric, bytes);
+        return; /* w->induced stays zero */
+    }
+    const struct lifting_line_report r = lifting_line_solve(
+        &m->lifting_line, m->polar, w->alpha_geometric, w->plunge, &w->lifting_line);
+    memcpy(w->alpha, w->lifting_line.alpha, bytes);
+    memcpy(w->induced, w->lifting_line.induced, bytes);
+    w->counters.not_converged += !r.converged;
+    w->counters.lifting_line_iterations += r.iterations;
+    w->counters.lifting_line_residual = fmax(w->counters.lifting_line_residual, r.residual);
+}
+
+static void steady_coefficients(const struct model *m, struct workspace *w)
+{
+    w->any_outside = false;
+    w->any_stalled = false;
+    for (int i = 0; i < w->n_station; i++) {
+        const struct polar_value v = polar_at(m->polar, w->alpha[i], w->plunge[i]);
+        w->cl[i] = v.cl;
+        /* The lift is normal to the local stream, which the induced angle tilts. */
+        w->cd[i] = v.cd + v.cl * w->induced[i];
+        w->cm[i] = v.cm;
+        w->counters.outside_polar += v.outside;
+        w->any_outside |= v.outside;
+        w->any_stalled |= polar_is_stalled(m->polar, w->alpha[i]);
+    }
+}
+
+/* Sliding mean over the ring; the sum is made anew each time the ring comes round, so that rounding
+ * does not pile up. */
+static void advance_mean(struct workspace *w, bool steady)
+{
+    const int n = w->n_station;
+    if (steady) {
+        w->ring_count = 0;
+        w->ring_next = 0;
+        fill(n, 0.0, w->ring_sum);
+    }
+    double *slot = w->ring + num_at(0, w->ring_next, n);
+    if (w->ring_count == w->window) {
+        for (int i = 0; i < n; i++) {
+            w->ring_sum[i] -= slot[i];
+        }
+    } else {
+        w->ring_count++;
+    }
+    for (int i = 0; i < n; i++) {
+        slot[i] = w->alpha[i];
+        w->ring_sum[i] += slot[i];
+    }
+    w->ring_next++;
+    if (w->ring_next == w->window) {
+        w->ring_next = 0;
+        fill(n, 0.0, w->ring_sum);
+        for (int k = 0; k < w->window; k++) {
+            const double *row = w->ring + num_at(0, k, n);
+            for (int i = 0; i < n; i++) {
+                w->ring_sum[i] += row[i];
+            }
+        }
+    }
+}
+
+/* Section 2.3: increments from (mean alpha, alpha - mean, alpha_dot c/V, alpha_ddot c^2/V^2).
+ * The rates come from the modal velocities and accelerations; only the jerk of the plunge is
+ * differenced. The slow change of the induced angle is not part of the rates. */
+static void dynamic_increment(const struct model *m, struct workspace *w, bool steady)
+{
+    if (m->network == NULL) {
+        return;
+    }
+    const int n = w->n_station;
+    const double speed = m->def.flow.speed, time = m->def.beam.section.chord / speed;
+    const double step = m->def.solver.time_step;
+    double *mean = w->net_in + num_at(0, NET_IN_MEAN_ALPHA, n);
+    double *delta = w->net_in + num_at(0, NET_IN_DELTA_ALPHA, n);
+    double *rate = w->net_in + num_at(0, NET_IN_ALPHA_RATE, n);
+    double *acceleration = w->net_in + num_at(0, NET_IN_ALPHA_ACCELERATION, n);
+    double jerk[LIMIT_MODES];
+    advance_mean(w, steady);
+    for (int j = 0; j < m->n_mode; j++) {
+        jerk[j] = (w->qdd[j] - w->qdd_previous[j]) / step;
+    }
+    for (int i = 0; i < n; i++) {
+        mean[i] = w->ring_sum[i] / w->ring_count;
+        delta[i] = w->alpha[i] - mean[i];
+    }
+    fill(n, 0.0, rate);
+    fill(n, 0.0, acceleration);
+    to_stations(m, m->station_theta, w->qd, time, rate);
+    to_stations(m, m->station_v, w->qdd, -time / speed, rate);
+    to_stations(m, m->station_theta, w->qdd, time * time, acceleration);
+    to_stations(m, m->station_v, jerk, -time * time / speed, acceleration);
+    memcpy(w->net_in + num_at(0, NET_IN_PLUNGE_RATE, n), w->plunge_rate, (size_t)n * sizeof *rate);
+    w->counters.outside_hull += network_eval(m->network, n, w->net_in, w->net_out);
+    for (int i = 0; i < n; i++) {
+        w->cl[i] += w->net_out[num_at(i, NET_OUT_CL, n)];
+        w->cd[i] += w->net_out[num_at(i, NET_OUT_CD, n)];
+        w->cm[i] += w->net_out[num_at(i, NET_OUT_CM, n)];
+    }
+}
+
+/* Lift normal to the undisturbed stream and drag along it, turned by alpha_0 into the beam frame;
+ * then the modal loads, Eq. (C.5). */
+static void modal_loads(const struct model *m, struct workspace *w)
+{
+    const double chord = m->def.beam.section.chord, q = m->dynamic_pressure;
+    const double c = cos(m->def.flow.incidence), s = sin(m->def.flow.incidence);
+    for (int i = 0; i < w->n_station; i++) {
+        const double lift = q * chord * w->cl[i], drag = q * chord * w->cd[i];
+        w->force_x[i] = lift * s - drag * c;
+        w->force_y[i] = lift * c + drag * s;
+        w->moment[i] = q * chord * chord * w->cm[i];
+    }
+    for (int j = 0; j < m->n_mode; j++) {
+        const double *restrict u = m->station_u + num_at(0, j, w->n_station);
+        const double *restrict v = m->station_v + num_at(0, j, w->n_station);
+        const double *restrict theta = m->station_theta + num_at(0, j, w->n_station);
+        double sum = 0.0;
+        for (int i = 0; i < w->n_station; i++) {
+            sum += u[i] * w->force_x[i] + v[i] * w->force_y[i] + theta[i] * w->moment[i];
+        }
+        w->load[j] = sum * m->station_length;
+    }
+}
+
+void loads_evaluate(const struct model *m, struct workspace *w, bool steady)
+{
+    assert(w->n_mode == m->n_mode);
+    kinematics(m, w);
+    solve_induced(m, w);
+    steady_coefficients(m, w);
+    dynamic_increment(m, w, steady);
+    modal_loads(m, w);
+}
+
+struct load_totals loads_total(const struct model *m, const struct workspace *w)
+{
+    double cl = 0.0, cd = 0.0, cm = 0.0;
+    for (int i = 0; i < w->n_station; i++) {
+        cl += w->cl[i];
+        cd += w->cd[i];
+        cm += w->cm[i];
+    }
+    cl /= w->n_station;
+    cd /= w->n_station;
+    cm /= w->n_station;
+    const double chord = m->def.beam.section.chord;
+    const double force = m->dynamic_pressure * chord * m->def.beam.length;
+    return (struct load_totals){.lift = force * cl,
+                                .drag = force * cd,
+                                .moment = force * chord * cm,
+                                .cl = cl,
+                                .cd = cd,
+                                .cm = cm};
+}

@@ -1,0 +1,49 @@
+/* core/coupling/march.h
+ * Time marching of the coupled system (App. C): loads once per step, extrapolated inside it.
+ *
+ * A struct march belongs to one thread. march_run allocates nothing. */
+#ifndef AEROM_CORE_COUPLING_MARCH_H
+#define AEROM_CORE_COUPLING_MARCH_H
+
+#include "core/coupling/exponential.h"
+#include "core/coupling/record.h"
+#include "core/coupling/rk4.h"
+
+#include <stdatomic.h>
+
+/* Why the marching ended. */
+enum stop_reason {
+    STOP_DURATION,
+    STOP_AMPLITUDE,
+    STOP_OUTSIDE_POLAR,
+    STOP_NOT_FINITE,
+    STOP_REASON_COUNT
+};
+
+/* How the caller watches and stops a run. Both pointers may be NULL. */
+struct sim_control {
+    const atomic_bool *cancel; /* set to true by another thread to stop */
+    _Atomic double *progress;  /* receives 0..1 */
+};
+
+struct march {
+    const struct model *model; /* borrowed */
+    struct workspace *w;       /* borrowed; q and qd hold the initial state */
+    struct record *record;     /* borrowed */
+    struct exponential exponential;
+    struct rk4 rk4;
+    struct load_polynomial load;
+    long outside_steps; /* steps with a station outside the polar */
+    enum stop_reason stop;
+    int steps; /* taken */
+};
+
+void march_init(const struct model *m, struct workspace *w, struct record *record,
+                struct march *out);
+
+/* Marches to the end of the case or to a stop rule. ST_CANCELLED when the flag was raised; other
+ * codes are failures of the integrator. A state that is not finite is a stop reason, and is not
+ * recorded. */
+MUST_CHECK enum status march_run(struct march *march, const struct sim_control *control);
+
+#endif

@@ -1,0 +1,42 @@
+/* core/coupling/model.h
+ * case_def -> immutable model: section, beam, modes, aerodynamic tables and the transfer between
+ * modes and stations. Built once, then only read; any number of threads may share it. */
+#ifndef AEROM_CORE_COUPLING_MODEL_H
+#define AEROM_CORE_COUPLING_MODEL_H
+
+#include "core/case_def.h"
+#include "core/structure/modes.h"
+#include "core/structure/section.h"
+
+struct model {
+    struct case_def def; /* the case, polar and network still borrowed */
+    struct laminate laminate;
+    struct section section;
+    struct section_summary section_summary;
+    struct beam beam;   /* not for CASE_SECTION */
+    struct modes modes; /* not for CASE_SECTION */
+
+    /* The rest only for CASE_SIMULATION. */
+    struct polar *polar;
+    struct network *network;          /* NULL without one */
+    struct lifting_line lifting_line; /* n = 0 without one */
+    int n_mode;
+    int n_station;           /* element mid-points */
+    double station_length;   /* [m] */
+    double dynamic_pressure; /* rho V^2 / 2 [Pa] */
+    double *omega2;          /* squared natural frequencies (n_mode) */
+    double *damping;         /* 2 zeta omega               (n_mode) */
+    /* Mode shapes at the stations, station fastest. Loads use the same matrices, so the power of
+     * the loads on the stations is that on the modes. */
+    double *station_u;       /* (n_station x n_mode) */
+    double *station_v;       /* (n_station x n_mode) */
+    double *station_theta;   /* (n_station x n_mode) */
+    struct beam_motion *tip; /* (n_mode) */
+};
+
+/* Builds from a checked case. On failure *out is unchanged and *fail names the part. */
+MUST_CHECK enum status model_build(const struct case_def *def, struct model *out,
+                                   struct failure *fail);
+void model_done(struct model *m);
+
+#endif

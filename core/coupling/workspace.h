@@ -1,0 +1,55 @@
+/* core/coupling/workspace.h
+ * Everything one thread writes while it marches, listed in the order the data flow each step:
+ * modes -> stations -> angle of attack -> lifting line -> polar + dynamic increment -> modal loads.
+ *
+ * One aligned allocation; the time loop allocates nothing. */
+#ifndef AEROM_CORE_COUPLING_WORKSPACE_H
+#define AEROM_CORE_COUPLING_WORKSPACE_H
+
+#include "core/coupling/model.h"
+
+struct workspace {
+    int n_mode, n_station;
+    double *block; /* owned: one 64-byte aligned allocation, holds the arrays below */
+
+    /* modal state (n_mode each) */
+    double *q;            /* amplitudes [kg^0.5 m] */
+    double *qd;           /* velocities */
+    double *qdd;          /* accelerations, with the load extrapolated to the new time */
+    double *qdd_previous; /* those one time step earlier, for the jerk of the plunge */
+
+    /* stations (n_station each) */
+    double *plunge;          /* v/c */
+    double *plunge_rate;     /* v_dot/V */
+    double *alpha_geometric; /* alpha_0 + theta - v_dot/V [rad] */
+    double *alpha;           /* effective: less the induced angle [rad] */
+    double *induced;         /* w_i/V [rad] */
+    double *net_in;          /* inputs of the network  (n_station x NET_IN_COUNT) */
+    double *net_out;         /* increments of c_l c_m c_d (n_station x NET_OUT_COUNT) */
+    double *cl, *cd, *cm;    /* total coefficients; cd holds profile and induced drag */
+    double *force_x;         /* per length, towards the leading edge [N/m] */
+    double *force_y;         /* per length, up [N/m] */
+    double *moment;          /* per length, nose-up about mid-chord [N] */
+
+    /* sliding mean of the angle of attack: ring of the last `window` steps */
+    int window; /* one period of the first mode in time steps */
+    int ring_count, ring_next;
+    double *ring;     /* (n_station x window), only with a network */
+    double *ring_sum; /* (n_station) */
+
+    double *load;                           /* modal loads (n_mode) */
+    struct lifting_line_state lifting_line; /* n = 0 without one */
+
+    /* of the last evaluation */
+    bool any_outside, any_stalled;
+
+    struct {
+        long outside_polar, outside_hull, not_converged, lifting_line_iterations;
+        double lifting_line_residual;
+    } counters;
+};
+
+MUST_CHECK enum status workspace_init(const struct model *m, struct workspace *out);
+void workspace_done(struct workspace *w);
+
+#endif

@@ -1,0 +1,46 @@
+/* core/la.h
+ * The only door to BLAS and LAPACK. Dense matrices, column-major, leading dimension = rows unless
+ * an argument says otherwise. Stateless; thread-safe once la_process_init has run.
+ *
+ * All calls use LAPACKE's `_work` forms: no hidden transposition, no NaN scan. Calls that need a
+ * work array allocate it: none of them belongs into the time loop except la_inverse_work. */
+#ifndef AEROM_CORE_LA_H
+#define AEROM_CORE_LA_H
+
+#include "core/status.h"
+
+/* One BLAS thread: the program's own threads are the parallelism, and bits stay the same. */
+void la_process_init(void);
+const char *la_description(void);
+
+/* y (m) = a (m x n) x (n). */
+void la_gemv(int m, int n, const double *a, const double *x, double *y);
+
+/* Solves a x = b for n_rhs right-hand sides; a (n x n) is destroyed, b (n x n_rhs) becomes x. */
+MUST_CHECK enum status la_solve(int n, double *a, int n_rhs, double *b);
+
+/* Same for a symmetric, possibly indefinite matrix (lower triangle is read). */
+MUST_CHECK enum status la_solve_symmetric(int n, double *a, int n_rhs, double *b);
+
+/* Inverts a (n x n) in place without allocating; pivot (n), work (n x n). */
+MUST_CHECK enum status la_inverse_work(int n, double *a, int *pivot, double *work);
+
+/* The n_out smallest eigenvalues lambda (n_out, ascending) of k x = lambda m x, and their vectors
+ * (n x n_out) with x' m x = 1. k and m are symmetric positive definite and destroyed.
+ * The problem is solved as m x = mu k x for its largest mu, where rounding is relative to the
+ * wanted values instead of to the stiffest freedom of the mesh. */
+MUST_CHECK enum status la_smallest_modes(int n, double *k, double *m, int n_out, double *lambda,
+                                         double *x);
+
+/* Singular values s (min(m, n), descending) and right singular vectors: vt (min(m,n) x n), row i
+ * belongs to s[i]. a (m x n) is destroyed. */
+MUST_CHECK enum status la_svd_right(int m, int n, double *a, double *s, double *vt);
+
+/* Least squares min |a x - b| for n_rhs right-hand sides, m >= n; a is destroyed; b (m x n_rhs)
+ * holds x in its first n rows. ST_SINGULAR when a has no full rank. */
+MUST_CHECK enum status la_least_squares(int m, int n, double *a, int n_rhs, double *b);
+
+/* Eigenvalues re + i im of a general matrix a (n x n), destroyed. */
+MUST_CHECK enum status la_eigenvalues(int n, double *a, double *re, double *im);
+
+#endif

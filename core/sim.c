@@ -1,0 +1,338 @@
+#include "core/sim.h"
+
+#include "core/analysis/equilibrium.h"
+#include "core/la.h"
+#include "core/num.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct sim {
+    struct model model;
+    struct workspace workspace; /* simulation only, as is the record */
+    struct record record;
+    struct sim_result result;
+};
+
+void sim_process_init(void)
+{
+    la_process_init();
+}
+
+const char *sim_blas_description(void)
+{
+    return la_description();
+}
+
+const char *mode_label_name(enum mode_label label)
+{
+    static const char *const name[MODE_LABEL_COUNT] = {"bending", "lag", "torsion", "axial",
+                                                       "mixed"};
+    assert((unsigned)label < MODE_LABEL_COUNT);
+    return name[label];
+}
+
+const char *stop_reason_name(enum stop_reason r)
+{
+    static const char *const name[STOP_REASON_COUNT] = {"duration", "amplitude", "outside_polar",
+                                                        "not_finite"};
+    assert((unsigned)r < STOP_REASON_COUNT);
+    return name[r];
+}
+
+const char *wash_name(enum wash w)
+{
+    static const char *const name[] = {"none", "wash_out", "wash_in"};
+    assert((unsigned)w < sizeof name / sizeof name[0]);
+    return name[w];
+}
+
+enum status sim_create(const struct case_def *def, struct sim **out, struct failure *fail)
+{
+    struct sim *s = calloc(1, sizeof *s);
+    if (s == NULL) {
+        failure_set(fail, ST_NO_MEMORY, "", "no_memory", NULL, NULL, "no memory for the run");
+        return ST_NO_MEMORY;
+    }
+    enum status st = model_build(def, &s->model, fail);
+    if (st == ST_OK && def->kind == CASE_SIMULATION) {
+        st = workspace_init(&s->model, &s->workspace);
+        if (st == ST_OK) {
+            st = record_init(&s->model, &s->record);
+        }
+        if (st != ST_OK) {
+            failure_set(fail, st, "/solver", status_name(st), NULL, NULL,
+                        "no memory for the workspace and the record of the run");
+        }
+    }
+    if (st != ST_OK) {
+        sim_destroy(s);
+        return st;
+    }
+    *out = s;
+    return ST_OK;
+}
+
+static void report_section(const struct model *m, struct section_result *out)
+{
+    const struct section_summary *s = &m->section_summary;
+    _Static_assert((int)SECTION_STRAINS == (int)SECTION_STRAIN_COUNT, "same strains");
+    _Static_assert((int)SECTION_CLASSICAL == (int)SECTION_CLASSIC, "same strains");
+    memcpy(out->stiffness, m->section.stiffness, sizeof out->stiffness);
+    memcpy(out->stiffness_condensed, m->section.classic, sizeof out->stiffness_condensed);
+    memcpy(out->mass, m->section.mass, sizeof out->mass);
+    out->mass_per_length = m->section.mass[num_at(M_U, M_U, SECTION_MASS)];
+    out->thickness = m->laminate.thickness;
+    out->ei_flap = s->ei_flap;
+    out->ei_lag = s->ei_lag;
+    out->gj = s->gj;
+    out->bend_twist = s->bend_twist;
+    /* Upward load bends up (v'' > 0, phi' < 0); with no torque theta' = bend_twist v''/GJ. */
+    const double relative = s->bend_twist / sqrt(s->ei_flap * s->gj);
+    out->wash = fabs(relative) < 1e-9 ? WASH_NONE : (relative > 0.0 ? WASH_IN : WASH_OUT);
+}
+
+static enum mode_label label_of(const double share[MODE_SHARES])
+{
+    static const double clear_majority = 0.8;
+    static const enum mode_label label[MODE_SHARES] = {MODE_BENDING, MODE_LAG, MODE_TORSION,
+                                                       MODE_AXIAL};
+    for (int f = 0; f < MODE_SHARES; f++) {
+        if (share[f] >= clear_majority) {
+            return label[f];
+        }
+    }
+    return MODE_MIXED;
+}
+
+static void report_modes(const struct model *m, struct sim_result *out)
+{
+    out->n_mode = m->modes.n_mode;
+    for (int j = 0; j < out->n_mode; j++) {
+        struct mode_result *r = &out->mode[j];
+        const double *shape = m->modes.shape + (size_t)j * (size_t)m->modes.n_dof;
+        const struct beam_motion tip = modes_tip(&m->beam, &m->modes, j);
+        const double chord = m->def.beam.section.chord;
+        const double largest = fmax(fmax(fabs(tip.u), fabs(tip.v)), fabs(tip.theta) * chord);
+        r->frequency_hz = m->modes.omega[j] / (2.0 * NUM_PI);
+        memcpy(r->share, m->modes.share + (size_t)j * MODE_SHARES, sizeof r->share);
+        r->label = label_of(r->share);
+        r->modal_mass = 1.0 / num_sq(largest);
+        for (int i = 0; i < MODE_SAMPLES; i++) {
+            const struct beam_motion at =
+                beam_motion_at(&m->beam, shape, m->beam.length * i / (MODE_SAMPLES - 1));
+            r->plunge[i] = at.v;
+            r->chordwise[i] = at.u;
+            r->twist[i] = at.theta;
+        }
+    }
+}
+
+/* Mean of a history column over the last `window` seconds. */
+static double history_mean(const struct record *r, int column, int from)
+{
+    const double *y = record_history(r, column);
+    double sum = 0.0;
+    for (int i = from; i < r->n; i++) {
+        sum += y[i];
+    }
+    return sum / (r->n - from);
+}
+
+static int window_start(const struct record *r, double window, double dt)
+{
+    const double steps = floor(window / dt + 0.5);
+    return steps < r->n - 1 ? r->n - 1 - (int)steps : 0;
+}
+
+static void report_means(const struct sim *s, struct sim_result *out)
+{
+    const struct record *r = &s->record;
+    const struct case_def *def = &s->model.def;
+    const double dt = def->solver.time_step;
+    const int from = window_start(r, def->output.mean_window, dt);
+    const double chord = def->beam.section.chord;
+    const double force = s->model.dynamic_pressure * chord * def->beam.length;
+    out->means.window_from = from * dt;
+    out->means.window_to = (r->n - 1) * dt;
+    out->means.tip_plunge = history_mean(r, HISTORY_PLUNGE, from);
+    out->means.tip_twist = history_mean(r, HISTORY_TWIST, from);
+    out->means.cl = history_mean(r, HISTORY_CL, from);
+    out->means.cd = history_mean(r, HISTORY_CD, from);
+    out->means.cm = history_mean(r, HISTORY_CM, from);
+    out->means.lift = force * out->means.cl;
+    out->means.drag = force * out->means.cd;
+    out->means.moment = force * chord * out->means.cm;
+}
+
+/* Squared mean modal contribution over the last modal_window seconds (Fig. 14). */
+static void report_contribution(const struct sim *s, int first_column, double *out)
+{
+    const struct record *r = &s->record;
+    const int from =
+        window_start(r, s->model.def.output.modal_window, s->model.def.solver.time_step);
+    double total = 0.0;
+    for (int j = 0; j < r->n_mode; j++) {
+        const double *y = record_history(r, first_column + j);
+        out[j] = 0.0;
+        for (int i = from; i < r->n; i++) {
+            out[j] += num_sq(y[i]);
+        }
+        total += out[j];
+    }
+    for (int j = 0; j < r->n_mode && total > 0.0; j++) {
+        out[j] /= total;
+    }
+}
+
+static enum status report_damping(const struct sim *s, struct sim_result *out)
+{
+    const struct record *r = &s->record;
+    const double dt = s->model.def.solver.time_step;
+    struct damping_system system = {.n_mode = out->n_mode,
+                                    .frequency_low = out->mode[0].frequency_hz,
+                                    .frequency_high = out->mode[out->n_mode - 1].frequency_hz};
+    double share = 0.5; /* of the kinetic energy: the first mode that is mostly torsion */
+    for (int j = out->n_mode - 1; j >= 0; j--) {
+        system.frequency_torsion =
+            out->mode[j].share[2] > share ? out->mode[j].frequency_hz : system.frequency_torsion;
+    }
+    enum status st =
+        damping_identify(r->n, record_history(r, HISTORY_TWIST), dt, &system, &out->tip_twist);
+    if (st == ST_OK) {
+        st = damping_identify(r->n, record_history(r, HISTORY_PLUNGE), dt, &system,
+                              &out->tip_plunge);
+    }
+    return st;
+}
+
+/* E* = E_l (h/c)^3 / (rho V^2/2) with the stiffest ply, and V c/nu. */
+static void report_similarity(const struct model *m, struct sim_result *out)
+{
+    const struct section_def *s = &m->def.beam.section;
+    double e_l = 0.0;
+    for (int i = 0; i < s->n_ply; i++) {
+        e_l = fmax(e_l, s->ply[i].material.e_l);
+    }
+    const double ratio = m->laminate.thickness / s->chord;
+    out->e_star = e_l * ratio * ratio * ratio / m->dynamic_pressure;
+    out->reynolds = m->def.flow.speed * s->chord / m->def.flow.kinematic_viscosity;
+}
+
+static enum status set_start(struct sim *s, struct failure *fail)
+{
+    const struct solver_def *solver = &s->model.def.solver;
+    struct workspace *w = &s->workspace;
+    if (solver->start == START_AMPLITUDES) {
+        memcpy(w->q, solver->amplitude, (size_t)solver->n_amplitude * sizeof *w->q);
+        memcpy(w->qd, solver->velocity, (size_t)solver->n_amplitude * sizeof *w->qd);
+    }
+    if (solver->start != START_EQUILIBRIUM) {
+        return ST_OK;
+    }
+    double residual = 0.0;
+    const enum status st = equilibrium_solve(&s->model, w, &residual);
+    if (st != ST_OK) {
+        failure_set(fail, st, "/solver/start", "no_equilibrium", NULL, NULL,
+                    "no static equilibrium was found from the undeformed beam (relative residual "
+                    "%.2g): beyond divergence, or on a stalled slope; start from rest instead",
+                    residual);
+    }
+    return st;
+}
+
+static void report_march(const struct sim *s, const struct march *march, struct sim_result *out)
+{
+    const struct workspace *w = &s->workspace;
+    out->verdict = verdict_of(march, out->verdict_reason);
+    out->stop = march->stop;
+    out->steps = march->steps;
+    out->time_step = s->model.def.solver.time_step;
+    out->stop_time = march->steps * out->time_step;
+    out->n_column = s->record.n_column;
+    out->n_sample = s->record.n_sample;
+    out->sample_step = out->time_step * s->model.def.output.sample_every;
+    out->counters = (struct sim_counters){
+        .outside_polar = w->counters.outside_polar,
+        .outside_hull = w->counters.outside_hull,
+        .not_converged = w->counters.not_converged,
+        .lifting_line_iterations = w->counters.lifting_line_iterations,
+        .inner_steps = march->rk4.inner_steps,
+        .lifting_line_residual = w->counters.lifting_line_residual,
+    };
+}
+
+/* Where and when a march ended that could not go on. */
+static void explain(enum status st, const struct march *march, struct failure *fail)
+{
+    const double time = march->steps * march->model->def.solver.time_step;
+    failure_set(fail, st, "/solver", status_name(st), NULL, NULL, "at %.6g s, step %d: %s", time,
+                march->steps, status_text(st));
+}
+
+static enum status run_simulation(struct sim *s, const struct sim_control *control,
+                                  struct failure *fail)
+{
+    enum status st = set_start(s, fail);
+    if (st != ST_OK) {
+        return st;
+    }
+    /* Counters are those of the march, not of the search for its start. */
+    memset(&s->workspace.counters, 0, sizeof s->workspace.counters);
+    struct march march;
+    march_init(&s->model, &s->workspace, &s->record, &march);
+    st = march_run(&march, control);
+    if (st != ST_OK) {
+        explain(st, &march, fail);
+        return st;
+    }
+    struct sim_result *out = &s->result;
+    report_march(s, &march, out);
+    report_similarity(&s->model, out);
+    report_means(s, out);
+    report_contribution(s, HISTORY_MODAL, out->contribution_position);
+    report_contribution(s, HISTORY_MODAL + s->record.n_mode, out->contribution_velocity);
+    st = report_damping(s, out);
+    if (st != ST_OK) {
+        failure_set(fail, st, "", status_name(st), NULL, NULL,
+                    "the damping could not be identified: %s", status_text(st));
+    }
+    return st;
+}
+
+enum status sim_run(struct sim *sim, const struct sim_control *control, struct failure *fail)
+{
+    const enum case_kind kind = sim->model.def.kind;
+    report_section(&sim->model, &sim->result.section);
+    if (kind != CASE_SECTION) {
+        report_modes(&sim->model, &sim->result);
+    }
+    const enum status st = kind == CASE_SIMULATION ? run_simulation(sim, control, fail) : ST_OK;
+    if (st == ST_OK && control != NULL && control->progress != NULL) {
+        atomic_store(control->progress, 1.0);
+    }
+    return st;
+}
+
+const struct sim_result *sim_result(const struct sim *sim)
+{
+    return &sim->result;
+}
+
+const double *sim_column(const struct sim *sim, int column)
+{
+    assert(column >= 0);
+    assert(column < sim->record.n_column);
+    return sim->record.sample + (ptrdiff_t)sim->record.sample_capacity * column;
+}
+
+void sim_destroy(struct sim *sim)
+{
+    if (sim != NULL) {
+        record_done(&sim->record);
+        workspace_done(&sim->workspace);
+        model_done(&sim->model);
+        free(sim);
+    }
+}

@@ -1,0 +1,42 @@
+/* core/structure/contour.h
+ * The middle line of the walls of a section as a mesh of straight quadratic elements along s.
+ *
+ * Any graph of walls is allowed: open, closed, branching. Nodes shared by walls are shared numbers.
+ * The struct owns its two arrays; contour_done frees them and accepts a zeroed struct. */
+#ifndef AEROM_CORE_STRUCTURE_CONTOUR_H
+#define AEROM_CORE_STRUCTURE_CONTOUR_H
+
+#include "core/structure/laminate.h"
+
+struct contour_element {
+    int node[3];  /* first end, middle, second end: warping freedoms */
+    double x[2];  /* chordwise position of the ends, towards the leading edge [m] */
+    double y[2];  /* vertical position of the ends [m] */
+    int laminate; /* index into the caller's laminates */
+};
+
+struct contour {
+    int n_node;
+    int n_element;
+    struct contour_element *element; /* (n_element) */
+};
+
+/* The flat strip: one wall on y = 0 from the leading edge (+chord/2) to the trailing edge, so that
+ * +s points aft and +n up. Laminate 0. */
+MUST_CHECK enum status contour_strip(double chord, int elements, struct contour *out);
+void contour_done(struct contour *c);
+
+/* Geometry of the wall at a point of an element, xi in [-1, 1]. */
+struct contour_point {
+    double x, y;     /* [m] */
+    double dx, dy;   /* dx/ds, dy/ds */
+    double r_n;      /* x dy/ds - y dx/ds: normal distance of the origin, as in (A.4) [m] */
+    double r_t;      /* x dx/ds + y dy/ds: tangential distance, sign of DEVIATION (A.3) [m] */
+    double jacobian; /* ds/dxi [m] */
+    double shape[3]; /* quadratic shape functions */
+    double slope[3]; /* their derivatives to s [1/m] */
+};
+
+struct contour_point contour_at(const struct contour_element *e, double xi);
+
+#endif

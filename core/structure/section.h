@@ -1,0 +1,41 @@
+/* core/structure/section.h
+ * Stiffness and mass of a thin-walled laminated section (App. A of the paper, rebuilt).
+ *
+ * DEVIATION from (A.33): the paper keeps five strains and holds the in-plane shear of an open wall
+ * at zero, which makes a one-sided laminate many times too stiff in torsion. Here the axial warping
+ * g(s) of the wall is the one that minimises the strain energy, by finite elements along s, so that
+ * open, closed and multi-cell sections are one code path.
+ *
+ * Strain order: w', psi', phi', theta', theta'', gamma_xz, gamma_yz; without shear psi = u',
+ * phi = -v' (A.8, A.9). The section result is a plain value. */
+#ifndef AEROM_CORE_STRUCTURE_SECTION_H
+#define AEROM_CORE_STRUCTURE_SECTION_H
+
+#include "core/structure/contour.h"
+
+enum section_strain { S_W, S_PSI, S_PHI, S_THETA, S_THETA2, S_GXZ, S_GYZ, SECTION_STRAIN_COUNT };
+enum { SECTION_CLASSIC = S_THETA2 + 1 };
+enum section_motion { M_U, M_V, M_W, M_DV, M_DU, M_THETA, M_DTHETA, SECTION_MOTION_COUNT };
+
+struct section {
+    double
+        stiffness[SECTION_STRAIN_COUNT * SECTION_STRAIN_COUNT]; /* column-major, retained shear */
+    double classic[SECTION_CLASSIC * SECTION_CLASSIC];          /* shear forces zero */
+    double mass[SECTION_MOTION_COUNT * SECTION_MOTION_COUNT];   /* (A.35), order of U there */
+};
+
+/* Integrates the walls. laminate[] is indexed by contour_element.laminate. */
+MUST_CHECK enum status section_build(const struct contour *c, const struct laminate *laminate,
+                                     struct section *out);
+
+/* What designers read off the classic matrix: each stiffness with axial force and warping free and
+ * the curvature in the other plane free. [N m^2] */
+struct section_summary {
+    double ei_flap;    /* against -v'', theta' held at zero */
+    double ei_lag;     /* against u'', theta' held at zero */
+    double gj;         /* against theta', flap curvature held at zero */
+    double bend_twist; /* moment about -v'' per unit theta' */
+};
+MUST_CHECK enum status section_summarise(const struct section *s, struct section_summary *out);
+
+#endif
