@@ -120,6 +120,7 @@ static bool defaults(struct config *c, char *const environment[], char why[CONFI
 
 struct file_read {
     struct config *config;
+    FILE *file;
     const char *path;
     char *why;
     int line;
@@ -130,12 +131,9 @@ struct file_read {
 /* libinih in Debian is built without line numbers in the handler: the reader counts them. */
 static char *read_line(char *buffer, int size, void *stream)
 {
-    struct {
-        FILE *file;
-        struct file_read *read;
-    } *s = stream;
-    s->read->line++;
-    return fgets(buffer, size, s->file);
+    struct file_read *r = stream;
+    r->line++;
+    return fgets(buffer, size, r->file);
 }
 
 static int on_key(void *user, const char *section, const char *name, const char *value)
@@ -167,12 +165,8 @@ static bool read_file(struct config *c, const char *path, char why[CONFIG_MESSAG
         (void)snprintf(why, CONFIG_MESSAGE, "%.200s: %s", path, strerror(errno));
         return false;
     }
-    struct file_read read = {.config = c, .path = path, .why = why};
-    struct {
-        FILE *file;
-        struct file_read *read;
-    } stream = {file, &read};
-    const int rc = ini_parse_stream(read_line, &stream, on_key, &read);
+    struct file_read read = {.config = c, .file = file, .path = path, .why = why};
+    const int rc = ini_parse_stream(read_line, &read, on_key, &read);
     (void)fclose(file);
     if (rc != 0 && !read.refused) {
         (void)snprintf(why, CONFIG_MESSAGE, "%.200s:%d: not of the form key = value", path, rc);

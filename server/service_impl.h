@@ -16,7 +16,7 @@ struct service_impl;
 struct service_impl *service_impl_create(struct store *st, struct writer *writer,
                                          struct dispatch *dispatch, const struct log *log,
                                          int64_t queue_limit);
-/* Accepts NULL. The writer must have been destroyed before, so that no answer is outstanding. */
+/* Accepts NULL. The writer must have been stopped before, so that no answer is outstanding. */
 void service_impl_destroy(struct service_impl *s);
 
 const struct service *service_impl_port(const struct service_impl *s);

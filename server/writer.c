@@ -236,16 +236,27 @@ void writer_stats(struct writer *w, struct writer_stats *out)
     (void)pthread_mutex_unlock(&w->mutex);
 }
 
-void writer_destroy(struct writer *w)
+void writer_stop(struct writer *w)
 {
     if (w == NULL) {
         return;
     }
     (void)pthread_mutex_lock(&w->mutex);
+    const bool already = w->stopping;
     w->stopping = true;
     (void)pthread_cond_signal(&w->work);
     (void)pthread_mutex_unlock(&w->mutex);
-    (void)pthread_join(w->thread, NULL);
+    if (!already) {
+        (void)pthread_join(w->thread, NULL);
+    }
+}
+
+void writer_destroy(struct writer *w)
+{
+    if (w == NULL) {
+        return;
+    }
+    writer_stop(w);
     (void)pthread_cond_destroy(&w->work);
     (void)pthread_mutex_destroy(&w->mutex);
     free(w);

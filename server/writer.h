@@ -38,7 +38,10 @@ bool writer_post(struct writer *w, struct write_request *r);
 /* Queues a request and waits for its outcome; STORE_ERROR when the writer is stopping. */
 enum store_status writer_call(struct writer *w, struct write_request *r);
 void writer_stats(struct writer *w, struct writer_stats *out);
-/* Finishes what is queued, tidies the log, ends the thread. Accepts NULL. */
+/* Finishes what is queued, tidies the log, ends the thread; later posts are refused. Accepts NULL.
+ */
+void writer_stop(struct writer *w);
+/* Stops if need be, then frees; nobody may post any more. Accepts NULL. */
 void writer_destroy(struct writer *w);
 
 #endif
