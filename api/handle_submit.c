@@ -1,0 +1,232 @@
+/* POST /v1/jobs: one case, or a batch that is taken whole or not at all. */
+#include "api/case.h"
+#include "api/json.h"
+#include "api/reader.h"
+#include "api/respond.h"
+#include "api/text.h"
+
+#include <assert.h>
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BATCH_MAX = 1000, CASE_BODY_MAX = 1 << 20 };
+
+/* Cases on their way to storage: lives from the request to the service's answer. */
+struct submission {
+    struct api_reply *reply;
+    bool batch;
+    int n; /* cases parsed */
+    struct api_case **cases;
+    struct service_submit *item;
+};
+
+static void submission_destroy(struct submission *s)
+{
+    for (int i = 0; i < s->n; i++) {
+        api_case_destroy(s->cases[i]);
+    }
+    free(s->cases);
+    free(s->item);
+    free(s);
+}
+
+static struct submission *submission_create(struct api_reply *reply, int n, bool batch)
+{
+    struct submission *s = calloc(1, sizeof *s);
+    if (s == NULL) {
+        return NULL;
+    }
+    *s = (struct submission){.reply = reply, .batch = batch};
+    s->cases = calloc((size_t)n, sizeof(struct api_case *));
+    s->item = calloc((size_t)n, sizeof *s->item);
+    if (s->cases == NULL || s->item == NULL) {
+        submission_destroy(s);
+        return NULL;
+    }
+    return s;
+}
+
+static void write_submitted(struct json_out *out, const struct service_submit *item,
+                            const struct service_submitted *r)
+{
+    char path[64];
+    (void)snprintf(path, sizeof path, "/v1/jobs/%s", r->id);
+    json_object_begin(out);
+    json_key_string(out, "id", r->id);
+    json_key_string(out, "state", job_state_name(r->state));
+    json_key(out, "reused");
+    json_boolean(out, r->reused);
+    json_key_string(out, "kind", case_kind_name(item->kind));
+    json_key_string(out, "name", item->name);
+    json_key_string(out, "content_hash", item->content_hash);
+    json_key(out, "links");
+    json_object_begin(out);
+    json_key_string(out, "self", path);
+    json_object_end(out);
+    json_object_end(out);
+}
+
+static void fill_accepted(struct api_response *res, const struct submission *s,
+                          const struct service_submitted *result)
+{
+    struct json_out out = {0};
+    bool all_reused = true;
+    if (s->batch) {
+        json_object_begin(&out);
+        json_key(&out, "jobs");
+        json_array_begin(&out);
+    }
+    for (int i = 0; i < s->n; i++) {
+        all_reused = all_reused && result[i].reused;
+        write_submitted(&out, &s->item[i], &result[i]);
+    }
+    if (s->batch) {
+        json_array_end(&out);
+        json_object_end(&out);
+    } else {
+        api_response_header(res, "Location", "/v1/jobs/%s", result[0].id);
+    }
+    respond_json(res, all_reused ? 200 : 202, &out);
+}
+
+static void submit_done(void *arg, enum service_status status, int n,
+                        const struct service_submitted *result)
+{
+    struct submission *s = arg;
+    struct api_response res = {0};
+    if (status == SERVICE_OK) {
+        assert(n == s->n);
+        fill_accepted(&res, s, result);
+    } else {
+        respond_service(&res, status, "");
+    }
+    s->reply->send(s->reply, &res);
+    submission_destroy(s);
+}
+
+static void add_case(struct submission *s, struct api_case *c)
+{
+    const struct case_def *def = api_case_def(c);
+    s->cases[s->n] = c;
+    s->item[s->n] = (struct service_submit){.kind = def->kind,
+                                            .name = def->name,
+                                            .case_json = api_case_canonical(c),
+                                            .content_hash = api_case_hash(c)};
+    s->n++;
+}
+
+/* The "jobs" of a batch, checked; NULL when it is none that can be read (reported). */
+static const cJSON *batch_list(struct reader *r, const cJSON *tree)
+{
+    const cJSON *jobs = NULL;
+    for (const cJSON *c = tree->child; c != NULL; c = c->next) {
+        const size_t mark = reader_enter_key(r, c->string);
+        const int n = cJSON_IsArray(c) ? cJSON_GetArraySize(c) : -1;
+        if (strcmp(c->string, "jobs") != 0) {
+            reader_problem(r, "unknown_key", "\"jobs\"", c, "a batch has no such key");
+        } else if (n < 0) {
+            reader_problem(r, "wrong_type", "an array of cases", c, "the value must be an array");
+        } else if (n == 0 || n > BATCH_MAX) {
+            reader_problem(r, n == 0 ? "empty_list" : "wrong_length", "1 to 1000 cases", c,
+                           "the list has %d entries", n);
+        } else {
+            jobs = c;
+        }
+        reader_leave(r, mark);
+    }
+    return jobs;
+}
+
+/* Parses every case of the tree; NULL when out of memory. Problems go to the list. */
+static struct submission *parse_cases(const struct api_call *call, const cJSON *tree,
+                                      struct failure_list *problems)
+{
+    struct reader r;
+    reader_init(&r, "", problems);
+    json_check(&r, tree);
+    const bool batch = cJSON_GetObjectItemCaseSensitive(tree, "jobs") != NULL;
+    const cJSON *jobs = batch ? batch_list(&r, tree) : NULL;
+    const int n = jobs != NULL ? cJSON_GetArraySize(jobs) : 1;
+    struct submission *s = submission_create(call->reply, n, batch);
+    const cJSON *item = batch ? (jobs != NULL ? jobs->child : NULL) : tree;
+    for (int i = 0; s != NULL && i < n && item != NULL; i++) {
+        char prefix[32] = "";
+        struct api_case *c = NULL;
+        if (batch) {
+            (void)snprintf(prefix, sizeof prefix, "/jobs/%d", i);
+        }
+        if (api_case_from_tree(call->api->library, item, prefix, &c, problems) == ST_OK) {
+            add_case(s, c);
+        }
+        item = batch ? item->next : NULL;
+    }
+    return s;
+}
+
+static void refuse(struct api_response *res, enum problem p, const struct failure_list *problems)
+{
+    char detail[600];
+    const struct failure *first = &problems->item[0];
+    (void)snprintf(detail, sizeof detail, "%s: %s%s", first->pointer, first->detail,
+                   problems->total > 1 ? " (and more, see errors)" : "");
+    problem_response(res, p, detail, problems, NULL);
+}
+
+static bool body_is_acceptable(const struct api_call *call, struct api_response *res)
+{
+    const char *type = call->req->content_type;
+    char detail[160];
+    if (text_is_media_type(type, "application/json")) {
+        return true;
+    }
+    (void)snprintf(detail, sizeof detail, "Content-Type is %.80s; send application/json",
+                   type != NULL ? type : "absent");
+    problem_response(res, PROBLEM_MEDIA_TYPE, detail, NULL, NULL);
+    return false;
+}
+
+void handle_submit(const struct api_call *call, struct api_response *res)
+{
+    const struct api_request *req = call->req;
+    const struct service *service = call->api->service;
+    cJSON *tree = NULL;
+    struct submission *s = NULL;
+    struct failure fail;
+    if (!body_is_acceptable(call, res)) {
+        return;
+    }
+    struct failure_list *problems = calloc(1, sizeof *problems);
+    if (problems == NULL) {
+        goto no_memory;
+    }
+    if (json_parse(req->body, req->body_size, &tree, &fail) != ST_OK) {
+        *failure_add(problems) = fail;
+        refuse(res, fail.status == ST_INVALID ? PROBLEM_MALFORMED_JSON : PROBLEM_INTERNAL,
+               problems);
+        goto out;
+    }
+    s = parse_cases(call, tree, problems);
+    if (s == NULL) {
+        goto no_memory;
+    }
+    if (!s->batch && req->body_size > CASE_BODY_MAX) {
+        problem_response(res, PROBLEM_TOO_LARGE, "one case may have 1 MiB; a batch 16 MiB", NULL,
+                         NULL);
+    } else if (problems->total > 0) {
+        refuse(res, PROBLEM_INVALID_CASE, problems);
+    } else {
+        service->submit(service->ctx, s->n, s->item, submit_done, s);
+        s = NULL; /* submit_done has it, perhaps has freed it */
+    }
+    goto out;
+no_memory:
+    problem_response(res, PROBLEM_INTERNAL, status_text(ST_NO_MEMORY), NULL, NULL);
+out:
+    if (s != NULL) {
+        submission_destroy(s);
+    }
+    json_free(tree);
+    free(problems);
+}

@@ -1,0 +1,11 @@
+/* api/job_out.h
+ * A job as the contract shows it. Inside api only. */
+#ifndef AEROM_API_JOB_OUT_H
+#define AEROM_API_JOB_OUT_H
+
+#include "api/json_out.h"
+#include "api/service.h"
+
+void job_write(struct json_out *out, const struct job_record *job);
+
+#endif

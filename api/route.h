@@ -1,0 +1,53 @@
+/* api/route.h
+ * The route table and what a handler gets. Inside api only. */
+#ifndef AEROM_API_ROUTE_H
+#define AEROM_API_ROUTE_H
+
+#include "api/problem.h"
+#include "api/router.h"
+
+enum { ROUTE_PARAM_SIZE = 256 };
+
+struct api_call {
+    const struct api *api;
+    const struct api_request *req;
+    struct api_reply *reply;
+    const struct route *route;
+    char param[ROUTE_PARAM_SIZE]; /* decoded {id} or {name}, "" when the path has none */
+};
+
+/* Fills *res, which the router sends; or leaves res->status 0 and sends its own answer to
+ * call->reply later. `call` and `res` live only until the handler returns. */
+typedef void (*route_handler)(const struct api_call *call, struct api_response *res);
+
+struct route {
+    const char *method;
+    const char *path; /* as in the OpenAPI document: {id} is one segment, {name} the rest */
+    route_handler handler;
+    const char *const *query; /* keys the route knows; NULL = none; ends with NULL */
+    const char *document;     /* result routes: the document they show */
+};
+
+extern const struct route route_table[]; /* ends with a NULL method */
+
+/* handle_submit.c */
+void handle_submit(const struct api_call *call, struct api_response *res);
+/* handle_jobs.c */
+void handle_list(const struct api_call *call, struct api_response *res);
+void handle_get(const struct api_call *call, struct api_response *res);
+void handle_cancel(const struct api_call *call, struct api_response *res);
+/* handle_result.c */
+void handle_case(const struct api_call *call, struct api_response *res);
+void handle_document(const struct api_call *call, struct api_response *res);
+/* handle_series.c */
+void handle_series(const struct api_call *call, struct api_response *res);
+/* handle_library.c */
+void handle_materials(const struct api_call *call, struct api_response *res);
+void handle_polars(const struct api_call *call, struct api_response *res);
+void handle_networks(const struct api_call *call, struct api_response *res);
+/* handle_meta.c */
+void handle_health(const struct api_call *call, struct api_response *res);
+void handle_ready(const struct api_call *call, struct api_response *res);
+void handle_openapi(const struct api_call *call, struct api_response *res);
+
+#endif
