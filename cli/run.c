@@ -7,9 +7,10 @@
 
 #include "api/case.h"
 #include "api/channel.h"
+#include "api/json_out.h"
 #include "api/result.h"
 #include "api/router.h"
-#include "api/series.h"
+#include "api/series_out.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -93,7 +94,9 @@ static bool write_series(const struct case_def *def, const struct sim *sim, cons
         return false;
     }
     size_t size = 0;
-    char *csv = series_csv(&data, &size);
+    struct json_out out = {0};
+    series_out_csv(&out, &data, 0);
+    char *csv = json_out_take(&out, &size);
     const bool done = csv != NULL && file_write(file, csv, size);
     free(csv);
     series_data_done(&data);

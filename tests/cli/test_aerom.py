@@ -1,0 +1,371 @@
+#!/usr/bin/env python3
+"""aerom as a user sees it: standard output, stderr, exit code.
+
+Needs AEROM, the program; the class Daemon also AEROMD, the daemon. Python 3 standard library."""
+
+import csv
+import http.server
+import json
+import os
+import socket
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+import urllib.request
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+CASES = ROOT / "data" / "cases"
+AEROM = os.environ["AEROM"]
+
+
+def aerom(*arguments, text=None, url=None):
+    environment = dict(os.environ)
+    environment.pop("AEROM_URL", None)
+    if url:
+        environment["AEROM_URL"] = url
+    return subprocess.run([AEROM, *map(str, arguments)], input=text, capture_output=True, text=True,
+                          env=environment, timeout=250, check=False)
+
+
+def short_case(**solver):
+    """The paper's case, cut to 0.2 s so that it is quick under a sanitizer."""
+    case = json.loads((CASES / "paper-beam.json").read_text(encoding="utf-8"))
+    case["solver"].update({"duration_s": 0.2}, **solver)
+    return case
+
+
+class Arguments(unittest.TestCase):
+    def test_version_names_the_core(self):
+        result = aerom("--version")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stdout, r"^aerom \d+\.\d+\.\d+ \(core \d+\.\d+\.\d+\+[0-9a-f]{8}\)\n$")
+
+    def test_help_names_every_command(self):
+        result = aerom("help")
+        self.assertEqual(result.returncode, 0)
+        for command in ("run", "submit", "wait", "get", "show", "cancel", "list"):
+            self.assertIn("aerom %s " % command, result.stdout)
+
+    def test_wrong_arguments_end_with_2_and_the_usage(self):
+        for arguments in ([], ["nothing"], ["run"], ["run", "a", "b"], ["run", "--wait", "a"],
+                          ["run", "--unknown", "a"], ["get"], ["get", "1", "secrets"],
+                          ["wait", "1", "--timeout", "soon"], ["list", "--state", "a b"]):
+            with self.subTest(arguments=arguments):
+                result = aerom(*arguments)
+                self.assertEqual(result.returncode, 2)
+                self.assertEqual(result.stdout, "")
+                self.assertIn("aerom", result.stderr)
+
+
+class Run(unittest.TestCase):
+    def test_summary_of_every_example(self):
+        for path in sorted(CASES.glob("*.json")):
+            with self.subTest(case=path.name):
+                result = aerom("run", path)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                summary = json.loads(result.stdout)
+                self.assertEqual(len(summary["identity"]["content_hash"]), 64)
+                kind = json.loads(path.read_text(encoding="utf-8"))["kind"]
+                wanted = {"simulation": {"verdict", "verdict_reason", "e_star", "reynolds", "modes",
+                                         "means", "damping", "modal_contribution", "counters",
+                                         "timing", "identity"},
+                          "modes": {"modes"}, "section": {"stiffness", "mass"}}[kind]
+                self.assertEqual(wanted - set(summary), set())
+
+    def test_standard_input_gives_the_same_answer(self):
+        text = (CASES / "aluminium-modes.json").read_text(encoding="utf-8")
+        by_name, by_input = aerom("run", CASES / "aluminium-modes.json"), aerom("run", "-", text=text)
+        self.assertEqual(by_input.returncode, 0, by_input.stderr)
+        self.assertEqual(json.loads(by_name.stdout)["modes"], json.loads(by_input.stdout)["modes"])
+
+    def test_other_document(self):
+        result = aerom("run", CASES / "aluminium-modes.json", "--document", "section")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("stiffness", json.loads(result.stdout))
+        result = aerom("run", CASES / "aluminium-modes.json", "--document", "damping")
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+
+    def test_text(self):
+        result = aerom("run", "--text", "-", text=json.dumps(short_case()))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for word in ("verdict: ", "natural modes", "torsion", "damping of tip_twist", "us per step"):
+            self.assertIn(word, result.stdout)
+
+    def test_series_has_every_sample_of_every_column(self):
+        case = short_case()
+        case["output"] = {"channels": ["tip_twist_deg", "modal_amplitude"], "sample_every": 10}
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "series.csv"
+            result = aerom("run", "-", "--series", path, text=json.dumps(case))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            rows = [r for r in csv.reader(path.open(encoding="ascii")) if not r[0].startswith("#")]
+        self.assertEqual(rows[0][1:], ["tip_twist_deg"] + ["modal_amplitude[%d]" % (i + 1)
+                                                           for i in range(4)])
+        times = [float(row[0]) for row in rows[1:]]
+        self.assertEqual(len(times), 101)  # 1000 steps of 2e-4 s, every 10th, and the start
+        self.assertAlmostEqual(times[0], 0.0)
+        self.assertAlmostEqual(times[-1], 0.2, places=12)
+        self.assertTrue(any(float(row[1]) != 0.0 for row in rows[1:]))
+
+    def test_problems_name_the_fields(self):
+        case = short_case()
+        case["beam"]["length_m"] = -1
+        case["beam"]["section"]["layup"][0]["material"] = "unobtainium"
+        case["surprise"] = 1
+        result = aerom("run", "-", text=json.dumps(case))
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        for pointer in ("/beam/length_m: ", "/beam/section/layup/0/material: ", "/surprise: "):
+            self.assertIn(pointer, result.stderr)
+
+    def test_what_is_not_a_case(self):
+        for text in ("", "{", "[]", '{"schema_version":1} trailing', '{"a":1,"a":2}'):
+            with self.subTest(text=text):
+                result = aerom("run", "-", text=text)
+                self.assertEqual((result.returncode, result.stdout), (1, ""))
+                self.assertNotEqual(result.stderr, "")
+
+    def test_files_that_fail(self):
+        self.assertIn("No such file", aerom("run", "/does/not/exist.json").stderr)
+        result = aerom("run", "-", "--series", "/does/not/exist.csv", text=json.dumps(short_case()))
+        self.assertEqual(result.returncode, 1)
+        result = aerom("run", CASES / "aluminium-modes.json", "--series", "/dev/null")
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+
+
+class Scripted(http.server.BaseHTTPRequestHandler):
+    """Answers each request with the next (status, document) of the server's script and keeps what
+    was asked."""
+
+    def answer(self):
+        size = int(self.headers.get("Content-Length", 0))
+        self.server.asked.append((self.command, self.path, self.rfile.read(size).decode(),
+                                  self.headers.get("Content-Type")))
+        status, document = self.server.script.pop(0)
+        body = (document if isinstance(document, str) else json.dumps(document)).encode()
+        self.send_response(status)
+        self.send_header("Content-Length", str(len(body)))
+        self.end_headers()
+        self.wfile.write(body)
+
+    do_GET = do_POST = do_DELETE = answer
+
+    def log_message(self, *_):
+        pass
+
+
+def job(state, **more):
+    return dict({"id": "0190-a", "kind": "simulation", "state": state, "progress": 0.5, "name": "x"},
+                **more)
+
+
+class Remote(unittest.TestCase):
+    """The client alone, against a server that plays a script."""
+
+    def setUp(self):
+        self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Scripted)
+        self.server.asked = []
+        self.thread = threading.Thread(target=self.server.serve_forever, daemon=True)
+        self.thread.start()
+        self.url = "http://127.0.0.1:%d" % self.server.server_port
+
+    def tearDown(self):
+        self.server.shutdown()
+        self.server.server_close()
+        self.thread.join()
+
+    def play(self, *script, arguments):
+        self.server.script = list(script)
+        result = aerom(*arguments, url=self.url)
+        self.assertEqual(self.server.script, [], "not every answer was asked for")
+        return result
+
+    def test_submit_sends_the_file_as_it_is(self):
+        path = CASES / "aluminium-modes.json"
+        result = self.play((202, job("queued")), (200, dict(job("done"), reused=True)),
+                           arguments=["submit", path, path])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout, "0190-a queued %s\n0190-a done %s (reused)\n" % (path, path))
+        sent = ("POST", "/v1/jobs", path.read_text(encoding="utf-8"), "application/json")
+        self.assertEqual(self.server.asked, [sent, sent])
+
+    def test_submit_goes_on_after_a_refused_case(self):
+        path = CASES / "aluminium-modes.json"
+        problem = {"title": "The case is not admissible", "status": 422, "errors": [
+            {"pointer": "/beam/length_m", "code": "range", "detail": "is not positive",
+             "expected": "> 0", "got": "-1"}]}
+        result = self.play((422, problem), (202, job("queued")), arguments=["submit", path, path])
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("422 The case is not admissible", result.stderr)
+        self.assertIn("/beam/length_m: is not positive (expected > 0, got -1)", result.stderr)
+        self.assertEqual(result.stdout.count("\n"), 1)
+
+    def test_submit_wait(self):
+        result = self.play((202, job("queued")), (200, job("running")), (200, job("done")),
+                           arguments=["submit", "--wait", CASES / "aluminium-modes.json"])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual([a[1] for a in self.server.asked],
+                         ["/v1/jobs", "/v1/jobs/0190-a", "/v1/jobs/0190-a"])
+
+    def test_wait_tells_how_a_job_ended(self):
+        failed = job("failed", error={"code": "not_finite", "detail": "at 0.3 s"})
+        for final, code in ((job("done"), 0), (failed, 1), (job("cancelled"), 1)):
+            with self.subTest(state=final["state"]):
+                result = self.play((200, job("running")), (200, final), arguments=["wait", "0190-a"])
+                self.assertEqual(result.returncode, code)
+                self.assertEqual(result.stdout, "")
+        self.assertIn("at 0.3 s", self.play((200, failed), arguments=["wait", "1"]).stderr)
+
+    def test_wait_gives_up(self):
+        start = time.monotonic()
+        result = self.play((200, job("running")), arguments=["wait", "1", "--timeout", "0"])
+        self.assertEqual(result.returncode, 3)
+        self.assertLess(time.monotonic() - start, 10)
+
+    def test_get_and_cancel(self):
+        for word, path in (("summary", "/summary"), ("case", "/case"), ("modes", "/modes"),
+                           ("damping", "/damping"), ("section", "/section"), ("series", "/series"),
+                           ("job", "")):
+            self.server.asked.clear()
+            result = self.play((200, {"a": 1}), arguments=["get", "j", word])
+            self.assertEqual((result.returncode, result.stdout), (0, '{"a": 1}\n'))
+            self.assertEqual(self.server.asked[0][:2], ("GET", "/v1/jobs/j" + path))
+        self.server.asked.clear()
+        result = self.play((202, job("cancelling")), arguments=["cancel", "j"])
+        self.assertEqual((result.returncode, result.stdout), (0, "0190-a cancelling\n"))
+        self.assertEqual(self.server.asked[0][:2], ("DELETE", "/v1/jobs/j"))
+
+    def test_list(self):
+        result = self.play((200, {"jobs": [job("done", verdict="stable")], "next": None}),
+                           arguments=["list", "--state", "done", "--kind", "simulation",
+                                      "--limit", "5"])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout.split(), ["0190-a", "simulation", "done", "50", "%", "stable", "x"])
+        self.assertEqual(self.server.asked[0][1], "/v1/jobs?state=done&kind=simulation&limit=5")
+
+    def test_ids_cannot_change_the_path(self):
+        for name in ("../polars", "a/b", "a?b", "", "a%2e"):
+            with self.subTest(id=name):
+                result = self.play(arguments=["get", name])
+                self.assertEqual((result.returncode, result.stdout), (1, ""))
+        self.assertEqual(self.server.asked, [])
+
+    def test_answers_that_are_no_documents(self):
+        for body in ("", "<html>", "[]", "{}", '{"id": 5}'):
+            with self.subTest(body=body):
+                self.assertEqual(self.play((200, body), arguments=["wait", "j"]).returncode, 1)
+        self.assertEqual(self.play((502, "<html>bad gateway"), arguments=["show", "j"]).returncode, 1)
+        self.assertEqual(self.play((200, "<html>"), arguments=["list"]).returncode, 1)
+
+    def test_nobody_there(self):
+        with socket.socket() as s:
+            s.bind(("127.0.0.1", 0))
+            closed = "http://127.0.0.1:%d" % s.getsockname()[1]
+        result = aerom("list", "--url", closed)
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        self.assertIn(closed, result.stderr)
+
+
+@unittest.skipUnless("AEROMD" in os.environ, "AEROMD names no daemon")
+class Daemon(unittest.TestCase):
+    """The client against the real daemon."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        with socket.socket() as s:
+            s.bind(("127.0.0.1", 0))
+            port = s.getsockname()[1]
+        cls.url = "http://127.0.0.1:%d" % port
+        cls.log = open(Path(cls.folder.name) / "log", "w+", encoding="utf-8")
+        cls.process = subprocess.Popen(
+            [os.environ["AEROMD"], "--listen", "127.0.0.1:%d" % port,
+             "--store", "sqlite:%s/jobs.db" % cls.folder.name], stderr=cls.log)
+        for _ in range(300):
+            try:
+                urllib.request.urlopen(cls.url + "/readyz", timeout=5).close()
+                return
+            except OSError:
+                time.sleep(0.1)
+        cls.tearDownClass()
+        raise AssertionError("the daemon did not become ready")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.process.terminate()
+        code = cls.process.wait(timeout=60)
+        cls.log.seek(0)
+        log = cls.log.read()
+        cls.log.close()
+        cls.folder.cleanup()
+        assert code == 0, "the daemon ended with %d:\n%s" % (code, log)
+
+    def submit(self, case):
+        path = Path(self.folder.name) / "case.json"
+        path.write_text(json.dumps(case), encoding="utf-8")
+        result = aerom("submit", path, "--wait", "--timeout", "120", url=self.url)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout.split()[0], path
+
+    def test_daemon_and_run_agree(self):
+        job_id, path = self.submit(short_case())
+        remote = json.loads(aerom("get", job_id, url=self.url).stdout)
+        local = json.loads(aerom("run", path).stdout)
+        for summary in (remote, local):
+            for key in ("cpu_s", "us_per_step"):
+                self.assertGreater(summary["timing"].pop(key), 0)
+        self.assertEqual(remote, local)
+
+    def test_series_agree(self):
+        case = short_case(modal_damping_ratio=0.01)
+        case["output"] = {"channels": ["tip_twist_deg", "modal_velocity"]}
+        job_id, path = self.submit(case)
+        remote = aerom("get", job_id, "series", "--csv", url=self.url).stdout
+        local = aerom("run", path, "--series", "-", "--document", "modes").stdout
+        self.assertGreater(remote.count("\n"), 1000)
+        self.assertTrue(local.endswith(remote), "the two CSV texts differ")
+
+    def test_every_document(self):
+        job_id, _ = self.submit(short_case(modes=3))
+        for word in ("job", "summary", "case", "series", "damping", "modes", "section"):
+            with self.subTest(document=word):
+                result = aerom("get", job_id, word, url=self.url)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                json.loads(result.stdout)
+        self.assertIn("verdict: ", aerom("show", job_id, url=self.url).stdout)
+        listed = aerom("list", "--state", "done", "--kind", "simulation", url=self.url).stdout
+        self.assertIn(job_id, listed)
+
+    def test_refused_case(self):
+        path = Path(self.folder.name) / "bad.json"
+        case = short_case()
+        case["flow"]["speed_m_s"] = 0
+        path.write_text(json.dumps(case), encoding="utf-8")
+        remote, local = aerom("submit", path, url=self.url), aerom("run", path)
+        self.assertEqual((remote.returncode, local.returncode), (1, 1))
+        line = [x for x in local.stderr.splitlines() if "/flow/speed_m_s" in x]
+        self.assertEqual(len(line), 1)
+        self.assertIn(line[0], remote.stderr.splitlines())
+
+    def test_unknown_job(self):
+        result = aerom("get", "00000000-0000-7000-8000-000000000000", url=self.url)
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        self.assertIn("404", result.stderr)
+
+    def test_cancel(self):
+        case = short_case(duration_s=100)
+        path = Path(self.folder.name) / "long.json"
+        case["output"] = {"channels": ["tip_twist_deg"], "sample_every": 100}
+        path.write_text(json.dumps(case), encoding="utf-8")
+        submitted = aerom("submit", path, url=self.url)
+        self.assertEqual(submitted.returncode, 0, submitted.stderr)
+        job_id = submitted.stdout.split()[0]
+        self.assertEqual(aerom("cancel", job_id, url=self.url).returncode, 0)
+        self.assertEqual(aerom("wait", job_id, "--timeout", "60", url=self.url).returncode, 1)
+        self.assertIn("cancelled", aerom("get", job_id, "job", url=self.url).stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
