@@ -54,7 +54,7 @@ void lifting_line_done(struct lifting_line *ll)
 
 enum status lifting_line_state_init(int n, struct lifting_line_state *out)
 {
-    enum { VECTORS = 8 };
+    enum { VECTORS = 9 };
     const size_t vector = (size_t)n, matrix = vector * vector;
     struct lifting_line_state s = {.n = n};
     s.block = calloc(VECTORS * vector + 2 * matrix, sizeof *s.block);
@@ -64,7 +64,7 @@ enum status lifting_line_state_init(int n, struct lifting_line_state *out)
         free(s.pivot);
         return ST_NO_MEMORY;
     }
-    double **const array[VECTORS] = {&s.cl,    &s.alpha, &s.induced, &s.previous,
+    double **const array[VECTORS] = {&s.cl,    &s.alpha, &s.induced, &s.previous, &s.older,
                                      &s.trial, &s.table, &s.slope,   &s.residual};
     for (int i = 0; i < VECTORS; i++) {
         *array[i] = s.block + (size_t)i * vector;
@@ -154,18 +154,21 @@ static double damped_step(const struct lifting_line *ll, const struct polar *p,
     return evaluate(ll, p, alpha_g, plunge, s);
 }
 
+/* First iterate: the table at the geometric angle, or the earlier solutions continued in a
+ * constant, a line or a parabola, as many as there are. */
 static void start_values(const struct polar *p, const double *alpha_g, const double *plunge,
                          struct lifting_line_state *s)
 {
-    if (!s->warm) {
+    static const double weight[4][3] = {{0}, {1.0}, {2.0, -1.0}, {3.0, -3.0, 1.0}};
+    if (s->known == 0) {
         polar_lift(p, s->n, alpha_g, plunge, s->cl, s->slope);
-        memcpy(s->previous, s->cl, (size_t)s->n * sizeof *s->cl);
         return;
     }
-    /* Time marching: continue the last two solutions in a straight line. */
+    const double *a = weight[s->known];
     for (int i = 0; i < s->n; i++) {
         const double last = s->cl[i];
-        s->cl[i] = 2.0 * last - s->previous[i];
+        s->cl[i] = a[0] * last + a[1] * s->previous[i] + a[2] * s->older[i];
+        s->older[i] = s->previous[i];
         s->previous[i] = last;
     }
 }
@@ -188,15 +191,16 @@ struct lifting_line_report lifting_line_solve(const struct lifting_line *ll, con
         const double before = r.residual;
         r.residual = damped_step(ll, p, alpha_geometric, plunge, before, s);
         r.iterations++;
-        /* An old inverse is kept as long as it cuts the residual to a tenth; a fresh one that does
+        /* An old inverse is kept as long as it cuts the residual to a third; a fresh one that does
          * not help at all has met a fold: give up and say so. */
         if (r.residual >= before && fresh) {
             break;
         }
-        s->factored = r.residual <= 0.1 * before;
+        s->factored = r.residual <= 0.3 * before;
         fresh = false;
     }
     r.converged = r.residual <= ll->tolerance;
-    s->warm = r.converged; /* a failed solution is no start for the next */
+    /* A failed solution is no start for the next. */
+    s->known = r.converged ? (s->known < 3 ? s->known + 1 : 3) : 0;
     return r;
 }

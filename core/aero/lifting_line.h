@@ -35,7 +35,7 @@ struct lifting_line_state {
     double *cl;                               /* solution, steady c_l at the effective angle (n) */
     double *alpha;                            /* effective angle of attack [rad]             (n) */
     double *induced;                          /* induced angle w_i/V [rad]                   (n) */
-    double *previous;                         /* solution one call earlier, for the start    (n) */
+    double *previous, *older;                 /* solutions one and two calls earlier     (n each) */
     double *trial, *table, *slope, *residual; /* scratch                 (n each) */
     double *inverse; /* inverse Jacobian                            (n x n) */
     double *work;    /* scratch of the inversion                    (n x n) */
