@@ -29,7 +29,7 @@ void lifting_line_done(struct lifting_line *ll);
 
 struct lifting_line_state {
     int n;
-    bool warm;                                /* cl holds the solution of an earlier call */
+    int known;                                /* earlier solutions at hand for the start, 0..3 */
     bool factored;                            /* inverse is that of an earlier Jacobian */
     double *block;                            /* owned: one allocation, holds the arrays below */
     double *cl;                               /* solution, steady c_l at the effective angle (n) */
