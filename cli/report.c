@@ -19,10 +19,11 @@ static const char *text_of(const cJSON *object, const char *key)
 static void print_failure(FILE *out, const char *pointer, const char *detail, const char *expected,
                           const char *got)
 {
+    /* Many details already say what was expected. */
+    const bool said = expected[0] == '\0' || strstr(detail, expected) != NULL;
     (void)fprintf(out, "  %s%s%s", pointer, pointer[0] != '\0' ? ": " : "", detail);
-    if (expected[0] != '\0') {
-        (void)fprintf(out, " (expected %s", expected);
-        (void)fprintf(out, got[0] != '\0' ? ", got %s)" : "%s)", got);
+    if (!said) {
+        (void)fprintf(out, " (expected %s%s%s)", expected, got[0] != '\0' ? ", got " : "", got);
     } else if (got[0] != '\0') {
         (void)fprintf(out, " (got %s)", got);
     }
@@ -45,13 +46,16 @@ void report_failures(FILE *out, const char *source, const struct failure_list *l
 void report_problem(FILE *out, const char *source, long http_status, const char *body, size_t size)
 {
     cJSON *problem = cJSON_ParseWithLength(body, size);
-    const char *detail = text_of(problem, "detail");
-    const char *title = text_of(problem, "title");
-    (void)fprintf(out, "aerom: %s: %ld %s%s%s\n", source, http_status, title,
-                  title[0] != '\0' && detail[0] != '\0' ? ": " : "",
-                  problem != NULL ? detail : body);
+    const cJSON *errors = member(problem, "errors");
     const cJSON *item = NULL;
-    cJSON_ArrayForEach(item, member(problem, "errors"))
+    (void)fprintf(out, "aerom: %s: %ld %s", source, http_status,
+                  problem != NULL ? text_of(problem, "title") : body);
+    /* With a list of errors the detail only repeats its first one. */
+    if (cJSON_GetArraySize(errors) == 0 && text_of(problem, "detail")[0] != '\0') {
+        (void)fprintf(out, ": %s", text_of(problem, "detail"));
+    }
+    (void)fputc('\n', out);
+    cJSON_ArrayForEach(item, errors)
     {
         print_failure(out, text_of(item, "pointer"), text_of(item, "detail"),
                       text_of(item, "expected"), text_of(item, "got"));
@@ -136,6 +140,9 @@ bool report_summary(FILE *out, const char *json, size_t size)
         (void)fprintf(out, "verdict: %s\n  %s\n", verdict->valuestring,
                       text_of(summary, "verdict_reason"));
     }
+    print_number(out, "E* %.4g", "", member(summary, "e_star"));
+    print_number(out, ", Reynolds number %.4g", "", member(summary, "reynolds"));
+    (void)fputs(verdict != NULL ? "\n" : "", out);
     const cJSON *modes = member(summary, "modes");
     if (modes != NULL) {
         (void)fputs("natural modes\n", out);
