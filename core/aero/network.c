@@ -7,10 +7,11 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* One block of LANES stations. x: scaled inputs, (n_in x LANES), lane fastest; y: (n_out x LANES).
  */
-typedef void (*network_kernel_fn)(const struct network *net, const double *x, double *y);
+typedef void (*network_kernel_fn)(const struct network *net, const lanes *x, lanes *y);
 
 struct network {
     int n_in, n_hidden, n_out;
@@ -83,55 +84,41 @@ void network_def_check(const struct network_def *def, const char *pointer, struc
 
 /* One pass over the neurons: hidden = tanh(w1 x + b1), y += w2 hidden. */
 static inline __attribute__((always_inline)) void evaluate_block(const struct network *net,
-                                                                 const double *x, double *y)
+                                                                 const lanes *x, lanes *y)
 {
     const int n_in = net->n_in, n_out = net->n_out;
     const double *weight = net->neuron;
-    double sum[LIMIT_NET_OUTPUTS][LANES];
+    const lanes zero = {0};
     for (int o = 0; o < n_out; o++) {
-        for (int l = 0; l < LANES; l++) {
-            sum[o][l] = net->b2[o];
-        }
+        y[o] = zero + net->b2[o];
     }
     for (int j = 0; j < net->n_hidden; j++) {
-        double v[LANES];
-        for (int l = 0; l < LANES; l++) {
-            v[l] = weight[n_in];
-        }
+        lanes v = zero + weight[n_in];
         for (int i = 0; i < n_in; i++) {
-            for (int l = 0; l < LANES; l++) {
-                v[l] += weight[i] * x[i * LANES + l];
-            }
+            v += weight[i] * x[i];
         }
-        tanh_lanes(v);
+        tanh_lanes(&v);
         for (int o = 0; o < n_out; o++) {
-            for (int l = 0; l < LANES; l++) {
-                sum[o][l] += weight[n_in + 1 + o] * v[l];
-            }
+            y[o] += weight[n_in + 1 + o] * v;
         }
         weight += n_in + 1 + n_out;
     }
-    for (int o = 0; o < n_out; o++) {
-        for (int l = 0; l < LANES; l++) {
-            y[o * LANES + l] = sum[o][l];
-        }
-    }
 }
 
-static void kernel_portable(const struct network *net, const double *x, double *y)
+static void kernel_portable(const struct network *net, const lanes *x, lanes *y)
 {
     evaluate_block(net, x, y);
 }
 
 #if defined(__x86_64__)
-__attribute__((target("avx2"))) static void kernel_avx2(const struct network *net, const double *x,
-                                                        double *y)
+__attribute__((target("avx2"))) static void kernel_avx2(const struct network *net, const lanes *x,
+                                                        lanes *y)
 {
     evaluate_block(net, x, y);
 }
 
-__attribute__((target("avx512f,avx512dq,prefer-vector-width=512"))) static void
-kernel_avx512(const struct network *net, const double *x, double *y)
+__attribute__((target("avx512f,avx512dq"))) static void kernel_avx512(const struct network *net,
+                                                                      const lanes *x, lanes *y)
 {
     evaluate_block(net, x, y);
 }
@@ -207,30 +194,30 @@ void network_destroy(struct network *net)
 
 int network_eval(const struct network *net, int n, const double *x, double *y)
 {
-    double in[LIMIT_NET_INPUTS * LANES], result[LIMIT_NET_OUTPUTS * LANES];
+    lanes in[LIMIT_NET_INPUTS], result[LIMIT_NET_OUTPUTS];
     int outside = 0;
     for (int o = 0; o < NET_OUT_COUNT; o++) {
         memset(y + (size_t)o * (size_t)n, 0, (size_t)n * sizeof *y);
     }
     for (int first = 0; first < n; first += LANES) {
-        const int lanes = n - first < LANES ? n - first : LANES;
+        const int used = n - first < LANES ? n - first : LANES;
         bool out_of_hull[LANES] = {false};
         for (int i = 0; i < net->n_in; i++) {
             const double *row = x + (size_t)net->input[i] * (size_t)n + first;
             for (int l = 0; l < LANES; l++) {
-                const double value = row[l < lanes ? l : 0]; /* idle lanes repeat the first */
-                in[i * LANES + l] = (value - net->in_offset[i]) * net->in_factor[i];
+                const double value = row[l < used ? l : 0]; /* idle lanes repeat the first */
+                in[i][l] = (value - net->in_offset[i]) * net->in_factor[i];
                 out_of_hull[l] |= !(value >= net->hull_min[i] && value <= net->hull_max[i]);
             }
         }
         net->kernel(net, in, result);
         for (int o = 0; o < net->n_out; o++) {
             double *row = y + (size_t)net->output[o] * (size_t)n + first;
-            for (int l = 0; l < lanes; l++) {
-                row[l] = result[o * LANES + l] * net->out_scale[o] + net->out_offset[o];
+            for (int l = 0; l < used; l++) {
+                row[l] = result[o][l] * net->out_scale[o] + net->out_offset[o];
             }
         }
-        for (int l = 0; l < lanes; l++) {
+        for (int l = 0; l < used; l++) {
             outside += out_of_hull[l];
         }
     }
