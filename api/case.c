@@ -28,13 +28,13 @@ bool case_kind_parse(const char *name, enum case_kind *out)
     return index >= 0;
 }
 
-/* The bit of the document's kind, which decides what is required; 0 when it has none. */
+/* The bit of the document's kind, which decides what is required. */
 static unsigned kind_of(const struct cJSON *tree)
 {
     const cJSON *kind = cJSON_GetObjectItemCaseSensitive(tree, "kind");
     enum case_kind value = CASE_SIMULATION;
     if (!cJSON_IsString(kind) || !case_kind_parse(kind->valuestring, &value)) {
-        return 0;
+        return CASE_OF_NO_KIND;
     }
     return 1u << value;
 }
@@ -48,7 +48,7 @@ static bool is_within(const char *inner, const char *outer)
 
 /* Adds what the core finds, except about members that are already reported: their value is only a
  * default there. */
-static enum status check_physics(const struct case_def *def, const char *prefix, int first,
+static enum status check_physics(const struct case_def *def, const char *prefix,
                                  struct failure_list *problems)
 {
     struct failure_list *found = malloc(sizeof *found);
@@ -64,7 +64,7 @@ static enum status check_physics(const struct case_def *def, const char *prefix,
         char pointer[2 * sizeof f->pointer];
         (void)snprintf(pointer, sizeof pointer, "%s%s", prefix, f->pointer);
         bool known = false;
-        for (int j = first; j < last; j++) {
+        for (int j = 0; j < last; j++) {
             known = known || is_within(pointer, problems->item[j].pointer) ||
                     is_within(problems->item[j].pointer, pointer);
         }
@@ -115,7 +115,7 @@ enum status api_case_from_tree(const struct library *lib, const struct cJSON *tr
 {
     assert(lib != NULL && out != NULL && problems != NULL);
     struct reader r;
-    const int before = problems->total, first = problems->count;
+    const int before = problems->total;
     struct api_case *c = calloc(1, sizeof *c);
     if (c == NULL) {
         return no_memory(prefix, problems);
@@ -128,9 +128,10 @@ enum status api_case_from_tree(const struct library *lib, const struct cJSON *tr
     field_read(&r, case_fields, tree, c);
 
     enum status st = ST_OK;
-    /* Without a kind the core would ask for the members of the wrong one. */
-    if (r.kind != 0) {
-        st = check_physics(&c->def, prefix, first, problems);
+    /* Without a kind the core would ask for the members of the wrong one; and once the list is
+     * full, what is reported already cannot be told. */
+    if (r.kind != CASE_OF_NO_KIND && problems->count < FAILURE_LIST_MAX) {
+        st = check_physics(&c->def, prefix, problems);
     }
     if (st == ST_OK && problems->total > before) {
         st = ST_INVALID;

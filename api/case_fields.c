@@ -10,14 +10,19 @@
 #define ANY INFINITY
 static const struct field_range version = {.min = 1, .max = 1};
 static const struct field_range positive = {.min = 0.0, .max = ANY, .above_min = true};
+static const struct field_range not_negative = {.min = 0.0, .max = ANY};
 static const struct field_range elements = {.min = 1, .max = LIMIT_ELEMENTS};
 static const struct field_range contour_elements = {.min = 1, .max = LIMIT_CONTOUR_ELEMENTS};
 static const struct field_range ply_angle = {.min = -180.0, .max = 180.0};
 static const struct field_range incidence = {.min = -90.0, .max = 90.0};
 static const struct field_range modes = {.min = 1, .max = LIMIT_MODES};
-static const struct field_range iterations = {.min = 1, .max = 10000};
+static const struct field_range iterations = {.min = 1, .max = 1000};
 static const struct field_range load_order = {.min = 0, .max = LIMIT_LOAD_ORDER};
 static const struct field_range damping = {.min = 0.0, .max = 1.0, .below_max = true};
+static const struct field_range tolerance = {
+    .min = 0.0, .max = 1.0, .above_min = true, .below_max = true};
+static const struct field_range step_tolerance = {.min = 1e-15, .max = 1.0, .below_max = true};
+static const struct field_range twist = {.min = 0.0, .max = 180.0, .above_min = true};
 static const struct field_range share = {.min = 0.0, .max = 1.0};
 static const struct field_range sampling = {.min = 1, .max = LIMIT_STEPS};
 
@@ -101,7 +106,7 @@ static const struct field beam_fields[] = {
 
 static const struct field flow_fields[] = {
     NUMBER("speed_m_s", def.flow.speed, SIMULATION, positive, .required = true),
-    NUMBER("density_kg_m3", def.flow.density, SIMULATION, positive, .unit = 1.0),
+    NUMBER("density_kg_m3", def.flow.density, SIMULATION, not_negative, .unit = 1.0),
     NUMBER("kinematic_viscosity_m2_s", def.flow.kinematic_viscosity, SIMULATION, positive,
            .unit = 1.0),
     NUMBER("incidence_deg", def.flow.incidence, SIMULATION, incidence, .unit = FIELD_DEGREE),
@@ -132,7 +137,7 @@ static bool has_far_wall(const void *base)
 static const struct field lifting_line_fields[] = {
     CHOICE("walls", def.aero.walls, wall_names, .kinds = ALL),
     NUMBER("width_m", def.aero.width, ALL, positive, .required = true, .applies = has_far_wall),
-    NUMBER("tolerance", def.aero.tolerance, ALL, positive, .unit = 1.0),
+    NUMBER("tolerance", def.aero.tolerance, ALL, tolerance, .unit = 1.0),
     INTEGER("iterations_max", def.aero.iterations_max, ALL, iterations),
     {0},
 };
@@ -170,12 +175,13 @@ static const struct field start_fields[] = {
      .offset = AT(def.solver.velocity),
      .count = AT(def.solver.n_amplitude),
      .sized = true,
+     .or_empty = true,
      .applies = has_amplitudes},
     {0},
 };
 
 static const struct field stop_fields[] = {
-    NUMBER("twist_max_deg", def.solver.twist_max, SIMULATION, positive, .unit = FIELD_DEGREE),
+    NUMBER("twist_max_deg", def.solver.twist_max, SIMULATION, twist, .unit = FIELD_DEGREE),
     NUMBER("plunge_max_lengths", def.solver.plunge_max, SIMULATION, positive, .unit = 1.0),
     NUMBER("outside_polar_max", def.solver.outside_max, SIMULATION, share, .unit = 1.0),
     {0},
@@ -186,7 +192,7 @@ static const struct field solver_fields[] = {
     NUMBER("time_step_s", def.solver.time_step, SIMULATION, positive, .unit = 1.0),
     NUMBER("duration_s", def.solver.duration, SIMULATION, positive, .required = true),
     CHOICE("integrator", def.solver.integrator, integrator_names, .kinds = SIMULATION),
-    NUMBER("tolerance", def.solver.tolerance, SIMULATION, positive, .unit = 1.0),
+    NUMBER("tolerance", def.solver.tolerance, SIMULATION, step_tolerance, .unit = 1.0),
     INTEGER("load_order", def.solver.load_order, SIMULATION, load_order),
     OBJECT("start", start_fields, .kinds = SIMULATION),
     NUMBER("modal_damping_ratio", def.solver.modal_damping, SIMULATION, damping, .unit = 1.0),

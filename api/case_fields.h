@@ -21,7 +21,8 @@ enum case_group {
     CASE_IN_SIMULATION = 1u << CASE_SIMULATION,
     CASE_IN_MODES = 1u << CASE_MODES,
     CASE_IN_SECTION = 1u << CASE_SECTION,
-    CASE_LABEL = 1u << 8
+    CASE_LABEL = 1u << 8,
+    CASE_OF_NO_KIND = 1u << 9 /* only what every kind needs can be asked for */
 };
 
 extern const char *const case_kind_names[]; /* ends with NULL */

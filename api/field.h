@@ -49,10 +49,11 @@ struct field {
     const struct field_range *range;
     const char *const *names;   /* ENUM, NAMES: ends with NULL */
     const struct field *fields; /* OBJECT, LIST */
-    size_t count; /* offset of the int that counts entries (MATRIX: entries of a row) */
-    size_t rows;  /* MATRIX: offset of the int that counts rows */
-    bool sized;   /* ARRAY, VECTOR: the count is known already and must be met */
-    int min, max; /* entries allowed */
+    size_t count;  /* offset of the int that counts entries (MATRIX: entries of a row) */
+    size_t rows;   /* MATRIX: offset of the int that counts rows */
+    bool sized;    /* ARRAY, VECTOR: the count is known already and must be met */
+    bool or_empty; /* sized ARRAY: an empty list stands for zeros */
+    int min, max;  /* entries allowed */
     /* Whether the member may be given at all, judged by members before it; NULL = always. */
     bool (*applies)(const void *base);
     /* Not printed when true; NULL = always printed where it applies. */

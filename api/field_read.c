@@ -170,6 +170,9 @@ static double *allocate(struct reader *r, int n)
 static void read_array(struct reader *r, const struct field *f, const cJSON *json, void *base)
 {
     int *count = member(base, f->count);
+    if (f->or_empty && cJSON_IsArray(json) && cJSON_GetArraySize(json) == 0) {
+        return;
+    }
     /* A count that could not be read has been reported; nothing can be checked against it. */
     const int n = f->sized && *count == 0 ? -1 : array_length(r, f, json, f->sized ? *count : -1);
     if (n < 0) {

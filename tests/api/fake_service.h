@@ -1,0 +1,50 @@
+/* tests/api/fake_service.h
+ * A struct service in memory, and requests to the router without a socket. */
+#ifndef AEROM_TESTS_API_FAKE_SERVICE_H
+#define AEROM_TESTS_API_FAKE_SERVICE_H
+
+#include "api/router.h"
+
+enum { FAKE_JOBS_MAX = 1100, FAKE_SAMPLES = 1000 };
+
+struct fake_job {
+    struct job_record record;
+    char *case_json;
+};
+
+struct fake {
+    struct service service;
+    struct api api;
+    struct library *library;
+    struct api_reply reply;
+    enum service_status refuse; /* what submit and cancel answer instead of working */
+    bool not_ready;
+    int n_job;
+    struct fake_job job[FAKE_JOBS_MAX];
+    int n_sent;                 /* replies so far */
+    struct api_response answer; /* the last one, freed by the next request */
+};
+
+/* Builds the service and the built-in library. */
+struct fake *fake_create(void);
+void fake_destroy(struct fake *f);
+
+/* Adds a job as a worker would have left it. Returns it. */
+struct fake_job *fake_add(struct fake *f, enum case_kind kind, enum job_state state,
+                          const char *name);
+
+/* One request; exactly one answer must come. The target is a path with its query. Headers may be
+ * NULL. Returns the answer's status. */
+int fake_request(struct fake *f, const char *method, const char *target, const char *content_type,
+                 const char *body);
+int fake_get(struct fake *f, const char *target);
+/* A GET with Accept and If-None-Match. */
+int fake_get_with(struct fake *f, const char *target, const char *accept, const char *etag);
+int fake_post(struct fake *f, const char *body);
+
+/* Header of the last answer, NULL when absent. */
+const char *fake_header(const struct fake *f, const char *name);
+/* Whether the last answer's body contains the text. */
+bool fake_says(const struct fake *f, const char *text);
+
+#endif
