@@ -432,7 +432,7 @@ enum store_status sqlite_recover(struct store_session *s, const char *owner, int
                                  int attempts_max, struct store_recovered *out)
 {
     struct store_recovered count = {0};
-    struct lost_job job;
+    struct lost_job job = {0};
     enum store_status st;
     while ((st = next_lost(s, owner, now, &job)) == STORE_OK) {
         st = take_back(s, &job, now, attempts_max, &count);
