@@ -29,7 +29,7 @@ static const struct key {
      "threads that serve HTTP; default one per core, at most 4"},
     {"queue_limit", KIND_INT, offsetof(struct config, queue_limit), "1000000", 1, 100000000,
      "most jobs waiting or running; further ones are refused"},
-    {"attempts", KIND_INT, offsetof(struct config, attempts), "3", 1, 1000,
+    {"attempts", KIND_INT, offsetof(struct config, attempts), "100", 1, 10000,
      "times a job may be lost with its process before it fails"},
     {"disk_reserve_mb", KIND_INT, offsetof(struct config, disk_reserve_mb), "1024", 0, 1000000000,
      "free space below which new jobs are refused"},
