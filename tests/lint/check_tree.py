@@ -185,23 +185,32 @@ def rule_whitespace(root):
 
 
 def rule_equations(root):
-    """Every function and test docs/EQUATIONS.md names exists, and every row names one."""
+    """Every function and file docs/EQUATIONS.md names exists, and every row of a table with a column
+    "function" names one."""
     table = root / "docs" / "EQUATIONS.md"
     if not table.is_file():
         yield table, 1, "is missing"
         return
-    known = set()
+    words, files = set(), set()
     for path in sources(root):
-        known.update(re.findall(r"\w+", path.read_text(encoding="utf-8")))
-    rows = 0
+        words.update(re.findall(r"\w+", path.read_text(encoding="utf-8")))
+        files.add(path.name)
+    rows, column = 0, None
     for number, line in enumerate(lines_of(table), 1):
-        names = re.findall(r"`([A-Za-z_]\w*)(?:\(\))?`", line)
-        for name in names:
-            if name not in known:
+        for name in re.findall(r"`([A-Za-z_]\w*)(?:\(\))?`", line):
+            if name not in words:
                 yield table, number, "%s does not exist" % name
-        if re.match(r"\|\s*[^|]*\([A-C]?\.?\d+\)", line) or re.match(r"\|\s*Eq\.", line):
+        for name in re.findall(r"`(?:\w+/)*(\w+\.[ch])`", line):
+            if name not in files:
+                yield table, number, "%s does not exist" % name
+        cells = [cell.strip() for cell in line.split("|")]
+        if "function" in cells:
+            column = cells.index("function")
+        elif len(cells) < 3:
+            column = None
+        elif column is not None and not set(line) <= set("|-: "):
             rows += 1
-            if not names and not re.search(r"`[\w/]+\.[ch]`", line):
+            if not re.search(r"`[A-Za-z_]\w*", cells[column]):
                 yield table, number, "the row names no function"
     if rows == 0:
         yield table, 1, "has no row of an equation"
