@@ -7,6 +7,7 @@ import csv
 import http.server
 import json
 import os
+import re
 import socket
 import subprocess
 import tempfile
@@ -348,6 +349,21 @@ class Daemon(unittest.TestCase):
         line = [x for x in local.stderr.splitlines() if "/flow/speed_m_s" in x]
         self.assertEqual(len(line), 1)
         self.assertIn(line[0], remote.stderr.splitlines())
+
+    def test_examples_of_the_readme(self):
+        """The curl lines of README.md, as they stand, on the paper's case."""
+        self.submit(json.loads((CASES / "paper-beam.json").read_text(encoding="utf-8")))
+        text = (ROOT / "README.md").read_text(encoding="utf-8")
+        blocks = re.findall(r"^```sh\n(.*?)^```$", text, re.M | re.S)
+        answers = [subprocess.run(["bash", "-ec", block.replace("http://127.0.0.1:8080", self.url)],
+                                  cwd=ROOT, capture_output=True, text=True, timeout=60, check=True)
+                   for block in blocks]
+        submitted, damping = (json.loads(answer.stdout) for answer in answers)
+        self.assertEqual((submitted["state"], submitted["reused"]), ("done", True))
+        root = damping["tip_twist"]["roots"][0]
+        printed = re.search(r'"frequency_hz":([0-9.]+),"ratio":([-0-9.]+)', text)
+        self.assertAlmostEqual(root["frequency_hz"] / float(printed.group(1)), 1, delta=1e-3)
+        self.assertAlmostEqual(root["ratio"], float(printed.group(2)), delta=1e-4)
 
     def test_unknown_job(self):
         result = aerom("get", "00000000-0000-7000-8000-000000000000", url=self.url)
