@@ -56,6 +56,32 @@ enum status la_solve_symmetric(int n, double *a, int n_rhs, double *b)
     return st;
 }
 
+enum status la_solve_least_size(int n, double *a, double rank_tolerance, double *b)
+{
+    const int size = 16 * n;
+    lapack_int rank = 0;
+    double *work = malloc((size_t)(size + n) * sizeof *work);
+    if (work == NULL) {
+        return ST_NO_MEMORY;
+    }
+    const lapack_int info = LAPACKE_dgelss_work(LAPACK_COL_MAJOR, n, n, 1, a, n, b, n, work,
+                                                rank_tolerance, &rank, work + n, size);
+    assert(info >= 0);
+    free(work);
+    return info == 0 ? ST_OK : ST_NOT_CONVERGED;
+}
+
+enum status la_cholesky(int n, double *a)
+{
+    return from_info(LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', n, a, n));
+}
+
+void la_cholesky_solve(int n, const double *factor, int n_rhs, double *b)
+{
+    const lapack_int info = LAPACKE_dpotrs_work(LAPACK_COL_MAJOR, 'L', n, n_rhs, factor, n, b, n);
+    assert(info == 0);
+}
+
 enum status la_inverse_work(int n, double *a, int *pivot, double *work)
 {
     _Static_assert(sizeof(lapack_int) == sizeof(int), "pivot arrays are plain int");

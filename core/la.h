@@ -22,6 +22,15 @@ MUST_CHECK enum status la_solve(int n, double *a, int n_rhs, double *b);
 /* Same for a symmetric, possibly indefinite matrix (lower triangle is read). */
 MUST_CHECK enum status la_solve_symmetric(int n, double *a, int n_rhs, double *b);
 
+/* Solves a x = b for a square, possibly rank-deficient matrix: of all least-squares solutions the
+ * one of least size. Singular values below rank_tolerance times the largest count as zero. */
+MUST_CHECK enum status la_solve_least_size(int n, double *a, double rank_tolerance, double *b);
+
+/* Cholesky factor of a symmetric positive definite matrix in place (lower triangle), and solutions
+ * with it: b (n x n_rhs) becomes x. Neither allocates. */
+MUST_CHECK enum status la_cholesky(int n, double *a);
+void la_cholesky_solve(int n, const double *factor, int n_rhs, double *b);
+
 /* Inverts a (n x n) in place without allocating; pivot (n), work (n x n). */
 MUST_CHECK enum status la_inverse_work(int n, double *a, int *pivot, double *work);
 

@@ -7,236 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { N = SECTION_STRAIN_COUNT, GAUSS = 3 };
-enum { W_EPS, W_GAMMA, W_KAPPA, W_TWIST }; /* wall strains, order of laminate.reduced */
-
-static const double gauss_point[GAUSS] = {-0.774596669241483377, 0.0, 0.774596669241483377};
-static const double gauss_weight[GAUSS] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
-
-/* Warping g(s) per unit of each strain, at the nodes: (n_node x N), with the load vectors and the
- * system they come from. One allocation. */
-struct warping {
-    int n_node;
-    int n_constraint;
-    double *g;      /* (n_node x N) */
-    double *system; /* (n x n), n = n_node + n_constraint */
-    double *rhs;    /* (n x N) */
-};
-
-/* Wall strains at a point per unit of beam strain k, the warping g included: Eqs. (A.5)-(A.12).
- * DEVIATION (A.6): gamma_sz contains theta', the print has phi'. g_of_k and slope_of_k are the
- * warping of strain k and its derivative at the point, g_theta the warping of unit theta'. */
-static void wall_strain(const struct contour_point *p, int k, double slope_of_k, double g_theta,
-                        double e[WALL_STRAINS])
-{
-    memset(e, 0, WALL_STRAINS * sizeof *e);
-    switch ((enum section_strain)k) {
-    case S_W:
-        e[W_EPS] = 1.0;
-        break;
-    case S_PSI:
-        e[W_EPS] = -p->x;
-        e[W_KAPPA] = -p->dy;
-        break;
-    case S_PHI:
-        e[W_EPS] = p->y;
-        e[W_KAPPA] = -p->dx;
-        break;
-    case S_THETA:
-        e[W_GAMMA] = p->r_n;
-        e[W_TWIST] = 2.0;
-        break;
-    case S_THETA2: /* the warping of theta' stretched by theta'' */
-        e[W_EPS] = g_theta;
-        e[W_KAPPA] = p->r_t;
-        break;
-    case S_GXZ:
-        e[W_GAMMA] = p->dx;
-        break;
-    case S_GYZ:
-        e[W_GAMMA] = p->dy;
-        break;
-    case SECTION_STRAIN_COUNT:
-        assert(false);
-    }
-    e[W_GAMMA] += slope_of_k;
-}
-
-static double at_nodes(const struct contour_element *el, const double value[3],
-                       const double *column)
-{
-    return value[0] * column[el->node[0]] + value[1] * column[el->node[1]] +
-           value[2] * column[el->node[2]];
-}
-
-static double dot_row(const double *reduced, int row, const double e[WALL_STRAINS])
-{
-    double sum = 0.0;
-    for (int j = 0; j < WALL_STRAINS; j++) {
-        sum += reduced[row + WALL_STRAINS * j] * e[j];
-    }
-    return sum;
-}
-
-/* Adds the energy of the free warping, int g' R22 g' ds, to the system. */
-static void add_energy(const struct contour *c, const struct laminate *lam, struct warping *w)
-{
-    const int n = w->n_node + w->n_constraint;
-    for (int i = 0; i < c->n_element; i++) {
-        const struct contour_element *el = &c->element[i];
-        const double r22 = lam[el->laminate].reduced[W_GAMMA + WALL_STRAINS * W_GAMMA];
-        for (int q = 0; q < GAUSS; q++) {
-            const struct contour_point p = contour_at(el, gauss_point[q]);
-            const double weight = gauss_weight[q] * p.jacobian * r22;
-            for (int a = 0; a < 3; a++) {
-                for (int b = 0; b < 3; b++) {
-                    w->system[num_at(el->node[a], el->node[b], n)] +=
-                        weight * p.slope[a] * p.slope[b];
-                }
-            }
-        }
-    }
-}
-
-/* Load of strain k on the warping: -int N' (R_gamma . e_k) ds. */
-static void add_load(const struct contour *c, const struct laminate *lam, int k, struct warping *w)
-{
-    double *rhs = w->rhs + (size_t)k * (size_t)(w->n_node + w->n_constraint);
-    const double *g_theta = w->g + (size_t)S_THETA * (size_t)w->n_node;
-    for (int i = 0; i < c->n_element; i++) {
-        const struct contour_element *el = &c->element[i];
-        for (int q = 0; q < GAUSS; q++) {
-            const struct contour_point p = contour_at(el, gauss_point[q]);
-            double e[WALL_STRAINS];
-            wall_strain(&p, k, 0.0, at_nodes(el, p.shape, g_theta), e);
-            const double flow = dot_row(lam[el->laminate].reduced, W_GAMMA, e);
-            for (int a = 0; a < 3; a++) {
-                rhs[el->node[a]] -= gauss_weight[q] * p.jacobian * p.slope[a] * flow;
-            }
-        }
-    }
-}
-
-/* Constraint row j: the virtual work of the axial flow of unit strain `source` on the warping is
- * zero, which makes w0, psi, phi the energetic averages of the section's motion; with it the
- * in-plane shear of a strip gets its factor 5/6 by itself. The out-of-plane part n r_t of the
- * warping of theta' enters through the right-hand side. */
-static void add_constraint(const struct contour *c, const struct laminate *lam,
-                           const struct warping *flow_of, int source, int j, struct warping *w)
-{
-    const int n = w->n_node + w->n_constraint, row = w->n_node + j;
-    for (int i = 0; i < c->n_element; i++) {
-        const struct contour_element *el = &c->element[i];
-        const double *r = lam[el->laminate].reduced;
-        for (int q = 0; q < GAUSS; q++) {
-            const struct contour_point p = contour_at(el, gauss_point[q]);
-            const double *column = flow_of->g + (size_t)source * (size_t)flow_of->n_node;
-            const double *g_theta = flow_of->g + (size_t)S_THETA * (size_t)flow_of->n_node;
-            double e[WALL_STRAINS];
-            wall_strain(&p, source, at_nodes(el, p.slope, column), at_nodes(el, p.shape, g_theta),
-                        e);
-            const double weight = gauss_weight[q] * p.jacobian;
-            const double force = dot_row(r, W_EPS, e), couple = dot_row(r, W_KAPPA, e);
-            for (int a = 0; a < 3; a++) {
-                w->system[num_at(row, el->node[a], n)] += weight * force * p.shape[a];
-                w->system[num_at(el->node[a], row, n)] += weight * force * p.shape[a];
-            }
-            w->rhs[num_at(row, S_THETA, n)] -= weight * couple * p.r_t;
-        }
-    }
-}
-
-static enum status warping_init(int n_node, int n_constraint, struct warping *w)
-{
-    const size_t n = (size_t)(n_node + n_constraint);
-    *w = (struct warping){.n_node = n_node, .n_constraint = n_constraint};
-    w->g = calloc((size_t)n_node * N + n * n + n * N, sizeof *w->g);
-    if (w->g == NULL) {
-        return ST_NO_MEMORY;
-    }
-    w->system = w->g + (size_t)n_node * N;
-    w->rhs = w->system + n * n;
-    return ST_OK;
-}
-
-static void warping_done(struct warping *w)
-{
-    free(w->g);
-}
-
-/* Rows and columns of the constraints are scaled to the energy so that pivoting sees like sizes. */
-static void scale_constraints(struct warping *w)
-{
-    const int n = w->n_node + w->n_constraint;
-    double energy = 0.0;
-    for (int i = 0; i < w->n_node; i++) {
-        energy = fmax(energy, w->system[num_at(i, i, n)]);
-    }
-    for (int row = w->n_node; row < n; row++) {
-        double largest = 0.0;
-        for (int i = 0; i < w->n_node; i++) {
-            largest = fmax(largest, fabs(w->system[num_at(row, i, n)]));
-        }
-        const double factor = largest > 0.0 ? energy / largest : 1.0;
-        for (int i = 0; i < w->n_node; i++) {
-            w->system[num_at(row, i, n)] *= factor;
-            w->system[num_at(i, row, n)] *= factor;
-        }
-        for (int k = 0; k < N; k++) {
-            w->rhs[num_at(row, k, n)] *= factor;
-        }
-    }
-}
-
-/* Solves for all strains but theta'', whose load needs the warping of theta', then for theta''. */
-static enum status warping_solve(const struct contour *c, const struct laminate *lam,
-                                 const struct warping *flow_of, struct warping *w)
-{
-    const int n = w->n_node + w->n_constraint;
-    const size_t size = (size_t)n * (size_t)n;
-    static const int source[3] = {S_W, S_PSI, S_PHI};
-    add_energy(c, lam, w);
-    for (int j = 0; j < w->n_constraint; j++) {
-        add_constraint(c, lam, flow_of, source[j], j, w);
-    }
-    for (int k = 0; k < N; k++) {
-        if (k != S_THETA2) {
-            add_load(c, lam, k, w);
-        }
-    }
-    scale_constraints(w);
-    double *copy = malloc((size + (size_t)n) * sizeof *copy);
-    if (copy == NULL) {
-        return ST_NO_MEMORY;
-    }
-    memcpy(copy, w->system, size * sizeof *copy);
-    enum status st = la_solve_symmetric(n, copy, N, w->rhs);
-    for (int k = 0; k < N && st == ST_OK; k++) {
-        memcpy(w->g + (size_t)k * (size_t)w->n_node, w->rhs + (size_t)k * (size_t)n,
-               (size_t)w->n_node * sizeof *w->g);
-    }
-    if (st == ST_OK) {
-        double *second = w->rhs + (size_t)S_THETA2 * (size_t)n;
-        memset(second, 0, (size_t)n * sizeof *second);
-        add_load(c, lam, S_THETA2, w);
-        st = la_solve_symmetric(n, w->system, 1, second);
-        memcpy(w->g + (size_t)S_THETA2 * (size_t)w->n_node, second,
-               (size_t)w->n_node * sizeof *w->g);
-    }
-    free(copy);
-    return st;
-}
-
-/* Wall strains of every beam strain at one point: (WALL_STRAINS x N). */
-static void all_strains(const struct contour_element *el, const struct contour_point *p,
-                        const struct warping *w, double *e)
-{
-    const double g_theta = at_nodes(el, p->shape, w->g + (size_t)S_THETA * (size_t)w->n_node);
-    for (int k = 0; k < N; k++) {
-        const double *column = w->g + (size_t)k * (size_t)w->n_node;
-        wall_strain(p, k, at_nodes(el, p->slope, column), g_theta, e + (size_t)(WALL_STRAINS * k));
-    }
-}
+enum { N = SECTION_STRAIN_COUNT };
 
 /* Stiffness of the first n_strain strains, (A.33) with the warping at its minimum. */
 static void integrate_stiffness(const struct contour *c, const struct laminate *lam,
@@ -246,17 +17,17 @@ static void integrate_stiffness(const struct contour *c, const struct laminate *
     for (int i = 0; i < c->n_element; i++) {
         const struct contour_element *el = &c->element[i];
         const struct laminate *l = &lam[el->laminate];
-        for (int q = 0; q < GAUSS; q++) {
-            const struct contour_point p = contour_at(el, gauss_point[q]);
-            const double weight = gauss_weight[q] * p.jacobian;
+        for (int q = 0; q < CONTOUR_GAUSS; q++) {
+            const struct contour_point p = contour_at(el, contour_gauss_point[q]);
+            const double weight = contour_gauss_weight[q] * p.jacobian;
             double e[WALL_STRAINS * N];
-            all_strains(el, &p, w, e);
+            warping_strains(w, el, &p, e);
             for (int a = 0; a < n_strain; a++) {
                 for (int b = 0; b < n_strain; b++) {
                     double sum = 0.0;
                     for (int r = 0; r < WALL_STRAINS; r++) {
                         sum += e[WALL_STRAINS * a + r] *
-                               dot_row(l->reduced, r, e + (size_t)(WALL_STRAINS * b));
+                               warping_flow(l->reduced, r, e + WALL_STRAINS * (ptrdiff_t)b);
                     }
                     /* Transverse shear of the wall, gamma_nz of Eq. (A.7). */
                     const double na = a == S_GXZ ? p.dy : (a == S_GYZ ? -p.dx : 0.0);
@@ -277,10 +48,10 @@ static void integrate_mass(const struct contour *c, const struct laminate *lam,
     for (int i = 0; i < c->n_element; i++) {
         const struct contour_element *el = &c->element[i];
         const struct laminate *l = &lam[el->laminate];
-        for (int q = 0; q < GAUSS; q++) {
-            const struct contour_point p = contour_at(el, gauss_point[q]);
-            const double weight = gauss_weight[q] * p.jacobian;
-            const double g = at_nodes(el, p.shape, w->g + (size_t)S_THETA * (size_t)w->n_node);
+        for (int q = 0; q < CONTOUR_GAUSS; q++) {
+            const struct contour_point p = contour_at(el, contour_gauss_point[q]);
+            const double weight = contour_gauss_weight[q] * p.jacobian;
+            const double g = warping_at(w, el, &p, S_THETA);
             /* Displacement component a at n is mid[a] + n slope[a]. */
             const double mid[3][U] = {{[M_U] = 1.0, [M_THETA] = -p.y},
                                       {[M_V] = 1.0, [M_THETA] = p.x},
@@ -308,23 +79,9 @@ enum status section_build(const struct contour *c, const struct laminate *lamina
     assert(c->n_element >= 1);
     struct section s;
     struct warping classic = {0}, retained = {0};
-    enum status st = warping_init(c->n_node, 1, &classic);
-    if (st == ST_OK) {
-        st = warping_init(c->n_node, 3, &retained);
-    }
+    enum status st = warping_solve(c, laminate, &classic, &retained);
     if (st != ST_OK) {
-        goto out;
-    }
-    /* Classical set: the warping is free but for its mean, so no shear flow is left on an open wall
-     * and the two shear strains are condensed. The mean is weighted with the axial flow of w'. */
-    st = warping_solve(c, laminate, &classic, &classic);
-    if (st != ST_OK) {
-        goto out;
-    }
-    /* Retained shears: the warping carries no mean stretch and no mean rotation. */
-    st = warping_solve(c, laminate, &classic, &retained);
-    if (st != ST_OK) {
-        goto out;
+        return st;
     }
     integrate_stiffness(c, laminate, &classic, SECTION_CLASSIC, s.classic);
     integrate_stiffness(c, laminate, &retained, N, s.stiffness);

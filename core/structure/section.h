@@ -11,10 +11,8 @@
 #ifndef AEROM_CORE_STRUCTURE_SECTION_H
 #define AEROM_CORE_STRUCTURE_SECTION_H
 
-#include "core/structure/contour.h"
+#include "core/structure/warping.h"
 
-enum section_strain { S_W, S_PSI, S_PHI, S_THETA, S_THETA2, S_GXZ, S_GYZ, SECTION_STRAIN_COUNT };
-enum { SECTION_CLASSIC = S_THETA2 + 1 };
 enum section_motion { M_U, M_V, M_W, M_DV, M_DU, M_THETA, M_DTHETA, SECTION_MOTION_COUNT };
 
 struct section {

@@ -1,0 +1,346 @@
+#include "core/structure/warping.h"
+
+#include "core/la.h"
+#include "core/num.h"
+
+#include <assert.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { N = SECTION_STRAIN_COUNT, CONSTRAINTS = 3 };
+
+const double contour_gauss_point[CONTOUR_GAUSS] = {-0.774596669241483377, 0.0,
+                                                   0.774596669241483377};
+const double contour_gauss_weight[CONTOUR_GAUSS] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+
+/* The system K g = f with node 0 held: K is singular for g = const and regular otherwise. */
+struct system {
+    int n;              /* nodes less one */
+    double *factor;     /* Cholesky factor of K (n x n) */
+    double *constraint; /* axial flows of w', psi', phi' on the nodes ((n + 1) x CONSTRAINTS) */
+    double *response;   /* K^-1 of them, node 0 zero                 ((n + 1) x CONSTRAINTS) */
+};
+
+static double at_nodes(const struct contour_element *el, const double value[3],
+                       const double *column)
+{
+    return value[0] * column[el->node[0]] + value[1] * column[el->node[1]] +
+           value[2] * column[el->node[2]];
+}
+
+double warping_at(const struct warping *w, const struct contour_element *el,
+                  const struct contour_point *p, int k)
+{
+    return at_nodes(el, p->shape, w->g + num_at(0, k, w->n_node));
+}
+
+double warping_flow(const double *reduced, int row, const double e[WALL_STRAINS])
+{
+    double sum = 0.0;
+    for (int j = 0; j < WALL_STRAINS; j++) {
+        sum += reduced[row + WALL_STRAINS * j] * e[j];
+    }
+    return sum;
+}
+
+/* Wall strains at a point per unit of beam strain k, without the slope of its warping.
+ * DEVIATION (A.6): gamma_sz contains theta', the print has phi'. g_theta is the warping of unit
+ * theta' there, which theta'' stretches. */
+static void bare_strain(const struct contour_point *p, int k, double g_theta,
+                        double e[WALL_STRAINS])
+{
+    memset(e, 0, WALL_STRAINS * sizeof *e);
+    switch ((enum section_strain)k) {
+    case S_W:
+        e[W_EPS] = 1.0;
+        break;
+    case S_PSI:
+        e[W_EPS] = -p->x;
+        e[W_KAPPA] = -p->dy;
+        break;
+    case S_PHI:
+        e[W_EPS] = p->y;
+        e[W_KAPPA] = -p->dx;
+        break;
+    case S_THETA:
+        e[W_GAMMA] = p->r_n;
+        e[W_TWIST] = 2.0;
+        break;
+    case S_THETA2:
+        e[W_EPS] = g_theta;
+        e[W_KAPPA] = p->r_t;
+        break;
+    case S_GXZ:
+        e[W_GAMMA] = p->dx;
+        break;
+    case S_GYZ:
+        e[W_GAMMA] = p->dy;
+        break;
+    case SECTION_STRAIN_COUNT:
+        assert(false);
+    }
+}
+
+void warping_strains(const struct warping *w, const struct contour_element *el,
+                     const struct contour_point *p, double *e)
+{
+    const double g_theta = warping_at(w, el, p, S_THETA);
+    for (int k = 0; k < N; k++) {
+        bare_strain(p, k, g_theta, e + WALL_STRAINS * (ptrdiff_t)k);
+        e[W_GAMMA + WALL_STRAINS * k] += at_nodes(el, p->slope, w->g + num_at(0, k, w->n_node));
+    }
+}
+
+/* Energy of the free warping, int g' R_gamma,gamma g' ds, factored with node 0 held. */
+static enum status factor(const struct contour *c, const struct laminate *lam, struct system *s)
+{
+    for (int i = 0; i < c->n_element; i++) {
+        const struct contour_element *el = &c->element[i];
+        const double shear = lam[el->laminate].reduced[W_GAMMA + WALL_STRAINS * W_GAMMA];
+        for (int q = 0; q < CONTOUR_GAUSS; q++) {
+            const struct contour_point p = contour_at(el, contour_gauss_point[q]);
+            const double weight = contour_gauss_weight[q] * p.jacobian * shear;
+            for (int a = 0; a < 3; a++) {
+                for (int b = 0; b < 3; b++) {
+                    if (el->node[a] > 0 && el->node[b] > 0) {
+                        s->factor[num_at(el->node[a] - 1, el->node[b] - 1, s->n)] +=
+                            weight * p.slope[a] * p.slope[b];
+                    }
+                }
+            }
+        }
+    }
+    return la_cholesky(s->n, s->factor);
+}
+
+/* Load of strain k on the warping: -int N' (R_gamma . e_k) ds. */
+static void add_load(const struct contour *c, const struct laminate *lam, const double *g_theta,
+                     int k, double *rhs)
+{
+    for (int i = 0; i < c->n_element; i++) {
+        const struct contour_element *el = &c->element[i];
+        for (int q = 0; q < CONTOUR_GAUSS; q++) {
+            const struct contour_point p = contour_at(el, contour_gauss_point[q]);
+            double e[WALL_STRAINS];
+            bare_strain(&p, k, g_theta != NULL ? at_nodes(el, p.shape, g_theta) : 0.0, e);
+            const double flow = warping_flow(lam[el->laminate].reduced, W_GAMMA, e);
+            for (int a = 0; a < 3; a++) {
+                rhs[el->node[a]] -= contour_gauss_weight[q] * p.jacobian * p.slope[a] * flow;
+            }
+        }
+    }
+}
+
+/* Solves K x = rhs in place, node 0 held at zero. */
+static void solve_held(const struct system *s, double *rhs)
+{
+    rhs[0] = 0.0;
+    la_cholesky_solve(s->n, s->factor, 1, rhs + 1);
+}
+
+/* Work of the axial flow of unit strain k of `w` on warping shapes: force on the nodes (n_node),
+ * and on the out-of-plane part n r_t of the warping of theta' (returned). */
+static double axial_flow(const struct contour *c, const struct laminate *lam,
+                         const struct warping *w, int k, double *force)
+{
+    double couple_work = 0.0;
+    for (int i = 0; i < c->n_element; i++) {
+        const struct contour_element *el = &c->element[i];
+        const double *r = lam[el->laminate].reduced;
+        for (int q = 0; q < CONTOUR_GAUSS; q++) {
+            const struct contour_point p = contour_at(el, contour_gauss_point[q]);
+            double e[WALL_STRAINS * N];
+            warping_strains(w, el, &p, e);
+            const double *unit = e + WALL_STRAINS * (ptrdiff_t)k;
+            const double weight = contour_gauss_weight[q] * p.jacobian;
+            for (int a = 0; a < 3; a++) {
+                force[el->node[a]] += weight * p.shape[a] * warping_flow(r, W_EPS, unit);
+            }
+            couple_work += weight * p.r_t * warping_flow(r, W_KAPPA, unit);
+        }
+    }
+    return couple_work;
+}
+
+static double dot(int n, const double *a, const double *b)
+{
+    double sum = 0.0;
+    for (int i = 0; i < n; i++) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
+
+/* Classic set: subtracts the constant that does work on the flow of w'. */
+static void remove_mean(int n_node, const double *flow, double couple, double *g)
+{
+    double total = 0.0;
+    for (int i = 0; i < n_node; i++) {
+        total += flow[i];
+    }
+    const double mean = (dot(n_node, flow, g) + couple) / total;
+    for (int i = 0; i < n_node; i++) {
+        g[i] -= mean;
+    }
+}
+
+/* Retained set: g += constant - response lambda such that the work on the three flows is zero and
+ * the forces lambda balance (they sum to none, or the held node would carry them). The flows depend
+ * on each other where the walls have no extent in a direction (psi', phi' of a flat strip): the
+ * solution of least size is taken. */
+static enum status constrain(const struct system *s, const double couple[CONSTRAINTS], double *g)
+{
+    enum { UNKNOWN = CONSTRAINTS + 1 };
+    const int n = s->n + 1;
+    double a[UNKNOWN * UNKNOWN] = {0}, b[UNKNOWN] = {0}, scale[UNKNOWN];
+    double energy = 0.0;
+    for (int i = 0; i < CONSTRAINTS; i++) {
+        const double *flow = s->constraint + num_at(0, i, n);
+        for (int j = 0; j < CONSTRAINTS; j++) {
+            a[num_at(i, j, UNKNOWN)] = -dot(n, flow, s->response + num_at(0, j, n));
+        }
+        for (int k = 0; k < n; k++) {
+            a[num_at(i, CONSTRAINTS, UNKNOWN)] += flow[k];
+        }
+        a[num_at(CONSTRAINTS, i, UNKNOWN)] = a[num_at(i, CONSTRAINTS, UNKNOWN)];
+        b[i] = -dot(n, flow, g) - couple[i];
+        scale[i] = 1.0 / sqrt(fmax(dot(n, flow, flow), 1e-300));
+        energy = fmax(energy, -scale[i] * scale[i] * a[num_at(i, i, UNKNOWN)]);
+    }
+    /* Unit flows, and a constant of like weight, so that the rank can be told. */
+    scale[CONSTRAINTS] = energy / sqrt(n);
+    for (int i = 0; i < UNKNOWN; i++) {
+        b[i] *= scale[i];
+        for (int j = 0; j < UNKNOWN; j++) {
+            a[num_at(i, j, UNKNOWN)] *= scale[i] * scale[j];
+        }
+    }
+    const enum status st = la_solve_least_size(UNKNOWN, a, 1e-9, b);
+    for (int k = 0; k < n && st == ST_OK; k++) {
+        g[k] += scale[CONSTRAINTS] * b[CONSTRAINTS];
+        for (int j = 0; j < CONSTRAINTS; j++) {
+            g[k] -= s->response[num_at(k, j, n)] * scale[j] * b[j];
+        }
+    }
+    return st;
+}
+
+static enum status solve_classic(const struct contour *c, const struct laminate *lam,
+                                 const struct system *s, struct warping *w)
+{
+    const int n = w->n_node;
+    double *flow = s->constraint; /* scratch until the retained set is solved */
+    for (int k = 0; k < N; k++) {
+        if (k != S_THETA2) {
+            add_load(c, lam, NULL, k, w->g + num_at(0, k, n));
+            solve_held(s, w->g + num_at(0, k, n));
+        }
+    }
+    memset(flow, 0, (size_t)n * sizeof *flow);
+    const double couple = axial_flow(c, lam, w, S_W, flow);
+    for (int k = 0; k < N; k++) {
+        if (k != S_THETA2) {
+            remove_mean(n, flow, k == S_THETA ? couple : 0.0, w->g + num_at(0, k, n));
+        }
+    }
+    add_load(c, lam, w->g + num_at(0, S_THETA, n), S_THETA2, w->g + num_at(0, S_THETA2, n));
+    solve_held(s, w->g + num_at(0, S_THETA2, n));
+    remove_mean(n, flow, 0.0, w->g + num_at(0, S_THETA2, n));
+    return ST_OK;
+}
+
+static enum status solve_retained(const struct contour *c, const struct laminate *lam,
+                                  const struct warping *classic, struct system *s,
+                                  struct warping *w)
+{
+    static const int source[CONSTRAINTS] = {S_W, S_PSI, S_PHI};
+    static const double none[CONSTRAINTS] = {0.0};
+    const int n = w->n_node;
+    double couple[CONSTRAINTS];
+    memset(s->constraint, 0, (size_t)n * CONSTRAINTS * sizeof *s->constraint);
+    for (int i = 0; i < CONSTRAINTS; i++) {
+        double *flow = s->constraint + num_at(0, i, n), *response = s->response + num_at(0, i, n);
+        couple[i] = axial_flow(c, lam, classic, source[i], flow);
+        memcpy(response, flow, (size_t)n * sizeof *flow);
+        solve_held(s, response);
+    }
+    enum status st = ST_OK;
+    for (int k = 0; k < N && st == ST_OK; k++) {
+        double *g = w->g + num_at(0, k, n);
+        if (k != S_THETA2) { /* the unconstrained warping is that of the classic set */
+            memcpy(g, classic->g + num_at(0, k, n), (size_t)n * sizeof *g);
+            st = constrain(s, k == S_THETA ? couple : none, g);
+        }
+    }
+    if (st == ST_OK) {
+        double *g = w->g + num_at(0, S_THETA2, n);
+        add_load(c, lam, w->g + num_at(0, S_THETA, n), S_THETA2, g);
+        solve_held(s, g);
+        st = constrain(s, none, g);
+    }
+    return st;
+}
+
+static enum status system_init(int n_node, struct system *out)
+{
+    const size_t n = (size_t)n_node - 1, nodes = (size_t)n_node;
+    struct system s = {.n = n_node - 1};
+    s.factor = calloc(n * n + nodes * (2 * CONSTRAINTS), sizeof *s.factor);
+    if (s.factor == NULL) {
+        return ST_NO_MEMORY;
+    }
+    s.constraint = s.factor + n * n;
+    s.response = s.constraint + nodes * CONSTRAINTS;
+    *out = s;
+    return ST_OK;
+}
+
+static enum status warping_init(int n_node, struct warping *out)
+{
+    double *g = calloc((size_t)n_node * N, sizeof *g);
+    if (g == NULL) {
+        return ST_NO_MEMORY;
+    }
+    *out = (struct warping){.n_node = n_node, .g = g};
+    return ST_OK;
+}
+
+enum status warping_solve(const struct contour *c, const struct laminate *laminate,
+                          struct warping *classic, struct warping *retained)
+{
+    assert(c->n_element >= 1);
+    struct warping a = {0}, b = {0};
+    struct system s = {0};
+    enum status st = system_init(c->n_node, &s);
+    if (st == ST_OK) {
+        st = warping_init(c->n_node, &a);
+    }
+    if (st == ST_OK) {
+        st = warping_init(c->n_node, &b);
+    }
+    if (st == ST_OK) {
+        st = factor(c, laminate, &s);
+    }
+    if (st == ST_OK) {
+        st = solve_classic(c, laminate, &s, &a);
+    }
+    if (st == ST_OK) {
+        st = solve_retained(c, laminate, &a, &s, &b);
+    }
+    free(s.factor);
+    if (st != ST_OK) {
+        warping_done(&a);
+        warping_done(&b);
+        return st;
+    }
+    *classic = a;
+    *retained = b;
+    return ST_OK;
+}
+
+void warping_done(struct warping *w)
+{
+    free(w->g);
+    *w = (struct warping){0};
+}

@@ -1,0 +1,47 @@
+/* core/structure/warping.h
+ * Axial warping of the walls per unit of each beam strain: the g(s) that minimises the strain
+ * energy of the section, by quadratic finite elements along the contour.
+ *
+ * Two sets are solved: `classic`, where the warping is free but for its mean, so that the two
+ * transverse shears are condensed; and `retained`, where it does no work on the axial flows of w',
+ * psi', phi', which makes these the energetic means of the section's motion. The struct owns one
+ * allocation; warping_done accepts a zeroed struct. */
+#ifndef AEROM_CORE_STRUCTURE_WARPING_H
+#define AEROM_CORE_STRUCTURE_WARPING_H
+
+#include "core/structure/contour.h"
+
+/* Without shear psi = u', phi = -v' (A.8, A.9). */
+enum section_strain { S_W, S_PSI, S_PHI, S_THETA, S_THETA2, S_GXZ, S_GYZ, SECTION_STRAIN_COUNT };
+enum { SECTION_CLASSIC = S_THETA2 + 1 };
+enum wall_strain { W_EPS, W_GAMMA, W_KAPPA, W_TWIST }; /* order of laminate.reduced */
+
+struct warping {
+    int n_node;
+    double *g; /* g at the nodes per unit of each strain (n_node x SECTION_STRAIN_COUNT) */
+};
+
+/* Both sets from one factorisation. ST_SINGULAR when a wall has no shear stiffness or the walls do
+ * not hang together. */
+MUST_CHECK enum status warping_solve(const struct contour *c, const struct laminate *laminate,
+                                     struct warping *classic, struct warping *retained);
+void warping_done(struct warping *w);
+
+/* Warping of unit strain k at a point of an element. */
+double warping_at(const struct warping *w, const struct contour_element *el,
+                  const struct contour_point *p, int k);
+
+/* Wall strains at a point of an element per unit of every beam strain:
+ * e (WALL_STRAINS x SECTION_STRAIN_COUNT), column-major. Eqs. (A.5)-(A.12). */
+void warping_strains(const struct warping *w, const struct contour_element *el,
+                     const struct contour_point *p, double *e);
+
+/* Entry `row` of reduced (WALL_STRAINS x WALL_STRAINS) times e. */
+double warping_flow(const double *reduced, int row, const double e[WALL_STRAINS]);
+
+/* Three-point Gauss rule of the contour elements. */
+enum { CONTOUR_GAUSS = 3 };
+extern const double contour_gauss_point[CONTOUR_GAUSS];
+extern const double contour_gauss_weight[CONTOUR_GAUSS];
+
+#endif
