@@ -1,0 +1,555 @@
+/* The OpenAPI document against the program: routes, parameters, field tables, defaults, codes,
+ * examples, and recorded replies. Neither may say what the other does not. */
+#include "api/case_fields.h"
+#include "api/channel.h"
+#include "api/embedded.h"
+#include "api/entry_fields.h"
+#include "api/json.h"
+#include "api/route.h"
+#include "fake_service.h"
+#include "schema_check.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+struct fixture {
+    struct fake *fake;
+    cJSON *doc;
+};
+
+static int setup(void **state)
+{
+    struct fixture *f = calloc(1, sizeof *f);
+    struct failure fail;
+    struct failure_list problems = {0};
+    struct reader r;
+    f->fake = fake_create();
+    if (json_parse(openapi_files[0].data, embedded_size(&openapi_files[0]), &f->doc, &fail) !=
+        ST_OK) {
+        print_error("openapi.json%s: %s\n", fail.pointer, fail.detail);
+        return -1;
+    }
+    reader_init(&r, "", &problems);
+    json_check(&r, f->doc);
+    *state = f;
+    return problems.total;
+}
+
+static int teardown(void **state)
+{
+    struct fixture *f = *state;
+    json_free(f->doc);
+    fake_destroy(f->fake);
+    free(f);
+    return 0;
+}
+
+static const cJSON *get(const cJSON *object, const char *key)
+{
+    return cJSON_GetObjectItemCaseSensitive(object, key);
+}
+
+static const cJSON *schema_named(const struct fixture *f, const char *name)
+{
+    const cJSON *s = get(get(get(f->doc, "components"), "schemas"), name);
+    assert_non_null(s);
+    return s;
+}
+
+/* -- routes */
+
+static const cJSON *operation_of(const struct fixture *f, const char *path, const char *method)
+{
+    char lower[16] = "";
+    for (size_t i = 0; method[i] != '\0' && i + 1 < sizeof lower; i++) {
+        lower[i] = (char)(method[i] | 0x20);
+        lower[i + 1] = '\0';
+    }
+    return get(get(get(f->doc, "paths"), path), lower);
+}
+
+static bool route_takes(const struct route *route, const char *key)
+{
+    return route->query != NULL && field_name_index(route->query, key) >= 0;
+}
+
+static void check_parameters(const struct fixture *f, const struct route *route,
+                             const cJSON *operation)
+{
+    int n = 0, known = 0;
+    const cJSON *p = NULL;
+    cJSON_ArrayForEach(p, get(operation, "parameters"))
+    {
+        const cJSON *full = schema_resolve(f->doc, p);
+        if (strcmp(get(full, "in")->valuestring, "query") == 0) {
+            n++;
+            assert_true(route_takes(route, get(full, "name")->valuestring));
+        }
+    }
+    while (route->query != NULL && route->query[known] != NULL) {
+        known++;
+    }
+    assert_int_equal(n, known);
+}
+
+static void test_routes(void **state)
+{
+    const struct fixture *f = *state;
+    int n_route = 0, n_operation = 0;
+    for (const struct route *t = route_table; t->method != NULL; t++, n_route++) {
+        const cJSON *operation = operation_of(f, t->path, t->method);
+        if (operation == NULL) {
+            fail_msg("%s %s is not in the document", t->method, t->path);
+        }
+        check_parameters(f, t, operation);
+    }
+    const cJSON *path = NULL, *operation = NULL;
+    cJSON_ArrayForEach(path, get(f->doc, "paths"))
+    {
+        cJSON_ArrayForEach(operation, path)
+        {
+            n_operation += strcmp(operation->string, "parameters") != 0;
+        }
+    }
+    assert_int_equal(n_operation, n_route);
+}
+
+/* -- field tables */
+
+static void expect_number(const cJSON *schema, const char *keyword, bool given, double value,
+                          const char *key)
+{
+    const cJSON *k = get(schema, keyword);
+    if ((k != NULL) != given || (given && k->valuedouble != value)) {
+        fail_msg("%s: %s of the document is not that of the table", key, keyword);
+    }
+}
+
+static void check_range(const cJSON *schema, const struct field_range *range, const char *key)
+{
+    const struct field_range none = {.min = (double)-INFINITY, .max = (double)INFINITY};
+    const struct field_range *r = range != NULL ? range : &none;
+    const bool low = isfinite(r->min), high = isfinite(r->max);
+    expect_number(schema, "minimum", low && !r->above_min, r->min, key);
+    expect_number(schema, "exclusiveMinimum", low && r->above_min, r->min, key);
+    expect_number(schema, "maximum", high && !r->below_max, r->max, key);
+    expect_number(schema, "exclusiveMaximum", high && r->below_max, r->max, key);
+}
+
+static void check_names(const cJSON *schema, const char *const *names, const char *key)
+{
+    const cJSON *list = get(schema, "enum");
+    int n = 0;
+    for (; names[n] != NULL; n++) {
+        const cJSON *e = cJSON_GetArrayItem(list, n);
+        if (e == NULL || strcmp(e->valuestring, names[n]) != 0) {
+            fail_msg("%s: \"%s\" is not in its place in the document", key, names[n]);
+        }
+    }
+    assert_int_equal(cJSON_GetArraySize(list), n);
+}
+
+static void check_table(const struct fixture *f, const cJSON *schema, const struct field *fields,
+                        unsigned kinds);
+
+static void check_field(const struct fixture *f, const cJSON *s, const struct field *t,
+                        unsigned kinds)
+{
+    switch (t->kind) {
+    case FIELD_NUMBER:
+    case FIELD_INTEGER:
+        assert_string_equal(get(s, "type")->valuestring,
+                            t->kind == FIELD_NUMBER ? "number" : "integer");
+        check_range(s, t->range, t->key);
+        break;
+    case FIELD_ENUM:
+        check_names(s, t->names, t->key);
+        break;
+    case FIELD_TEXT:
+        expect_number(s, "maxLength", true, (double)t->size - 1.0, t->key);
+        expect_number(s, "minLength", t->required, 1, t->key);
+        break;
+    case FIELD_OBJECT:
+        assert_int_equal(cJSON_IsArray(get(s, "type")), t->nullable); /* ["object", "null"] */
+        check_table(f, s, t->fields, t->kinds != 0 ? t->kinds : kinds);
+        break;
+    case FIELD_LIST:
+        expect_number(s, "minItems", true, t->min, t->key);
+        expect_number(s, "maxItems", true, t->max, t->key);
+        check_table(f, schema_resolve(f->doc, get(s, "items")), t->fields, kinds);
+        break;
+    case FIELD_NAMES:
+        expect_number(s, "minItems", true, t->min, t->key);
+        expect_number(s, "maxItems", true, t->max, t->key);
+        check_names(get(s, "items"), t->names, t->key);
+        break;
+    case FIELD_ARRAY:
+    case FIELD_VECTOR:
+        expect_number(s, "minItems", t->min > 0, t->min, t->key);
+        check_range(get(s, "items"), t->range, t->key);
+        break;
+    case FIELD_MATRIX:
+        assert_string_equal(get(get(s, "items"), "type")->valuestring, "array");
+        break;
+    case FIELD_CUSTOM:
+        break; /* references and notes: nothing but the key */
+    }
+}
+
+/* Whether every document that has the object must have the member. */
+static bool always_required(const struct field *t, unsigned kinds)
+{
+    return t->required && t->applies == NULL && (t->kinds == 0 || (t->kinds & kinds) == kinds);
+}
+
+static bool lists_required(const cJSON *schema, const char *key)
+{
+    const cJSON *name = NULL;
+    cJSON_ArrayForEach(name, get(schema, "required"))
+    {
+        if (strcmp(name->valuestring, key) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void check_table(const struct fixture *f, const cJSON *schema, const struct field *fields,
+                        unsigned kinds)
+{
+    const cJSON *properties = get(schema, "properties");
+    int n = 0;
+    assert_true(cJSON_IsFalse(get(schema, "additionalProperties")));
+    for (const struct field *t = fields; t->key != NULL; t++, n++) {
+        const cJSON *s = get(properties, t->key);
+        if (s == NULL) {
+            fail_msg("\"%s\" is not in the document", t->key);
+        }
+        if (lists_required(schema, t->key) != always_required(t, kinds)) {
+            fail_msg("\"%s\": required differs between table and document", t->key);
+        }
+        check_field(f, schema_resolve(f->doc, s), t, kinds);
+    }
+    assert_int_equal(cJSON_GetArraySize(properties), n);
+}
+
+static void test_tables(void **state)
+{
+    const struct fixture *f = *state;
+    check_table(f, schema_named(f, "Case"), case_fields,
+                CASE_IN_SIMULATION | CASE_IN_MODES | CASE_IN_SECTION);
+    check_table(f, schema_named(f, "Material"), material_fields, 0);
+    check_table(f, schema_named(f, "Polar"), polar_fields, 0);
+    check_table(f, schema_named(f, "Network"), network_fields, 0);
+}
+
+/* -- defaults */
+
+/* Every default of the schema is what the canonical case shows, and what is not required has one.
+ */
+static int check_defaults(const struct fixture *f, const cJSON *schema, const cJSON *value)
+{
+    int n = 0;
+    const cJSON *member = NULL;
+    cJSON_ArrayForEach(member, value)
+    {
+        const cJSON *s = schema_resolve(f->doc, get(get(schema, "properties"), member->string));
+        const cJSON *fallback = get(s, "default");
+        assert_non_null(s);
+        if (fallback != NULL) {
+            n++;
+            if (!cJSON_Compare(fallback, member, true)) {
+                fail_msg("\"%s\": default differs between document and program", member->string);
+            }
+        } else if (cJSON_IsObject(member)) {
+            n += check_defaults(f, s, member);
+        } else if (!lists_required(schema, member->string) &&
+                   strcmp(member->string, "length_m") != 0 &&
+                   strcmp(member->string, "duration_s") != 0) { /* required by the kind */
+            fail_msg("\"%s\" has a default the document does not tell", member->string);
+        }
+    }
+    return n;
+}
+
+static void test_defaults(void **state)
+{
+    static const char minimal[] =
+        "{\"schema_version\":1,\"kind\":\"simulation\",\"beam\":{\"length_m\":1,\"section\":{"
+        "\"type\":\"strip\",\"chord_m\":0.1,\"layup\":[{\"material\":\"foam\",\"thickness_m\":"
+        "0.01}]}},\"flow\":{\"speed_m_s\":1},\"aerodynamics\":{\"polar\":\"plate-4pct-channel\"},"
+        "\"solver\":{\"duration_s\":1}}";
+    const struct fixture *f = *state;
+    struct failure_list *problems = calloc(1, sizeof *problems);
+    struct api_case *c = NULL;
+    struct cJSON *tree = NULL;
+    struct failure fail;
+    assert_int_equal(api_case_parse(f->fake->library, minimal, strlen(minimal), "", &c, problems),
+                     ST_OK);
+    const char *text = api_case_canonical(c);
+    assert_int_equal(json_parse(text, strlen(text), &tree, &fail), ST_OK);
+    assert_int_equal(check_defaults(f, schema_named(f, "Case"), tree), 27);
+    json_free(tree);
+    api_case_destroy(c);
+    free(problems);
+}
+
+/* -- lists of words */
+
+static void test_words(void **state)
+{
+    const struct fixture *f = *state;
+    const char *problems[PROBLEM_COUNT + 1] = {NULL};
+    const char *states[JOB_STATE_COUNT + 1] = {NULL};
+    for (int i = 0; i < PROBLEM_COUNT; i++) {
+        problems[i] = problem_code((enum problem)i);
+    }
+    for (int i = 0; i < JOB_STATE_COUNT; i++) {
+        states[i] = job_state_name((enum job_state)i);
+    }
+    check_names(schema_node(f->doc, "#/components/schemas/Problem/properties/code"), problems,
+                "code");
+    check_names(schema_node(f->doc, "#/components/schemas/Job/properties/state"), states, "state");
+    check_names(schema_node(f->doc, "#/components/schemas/Job/properties/kind"), case_kind_names,
+                "kind");
+    check_names(schema_node(f->doc, "#/components/schemas/Output/properties/channels/items"),
+                channel_names, "channels");
+}
+
+/* -- examples */
+
+/* The program and the schema agree on a text: both take it. */
+static void check_admissible(const struct fixture *f, const char *text, size_t size)
+{
+    struct failure_list *problems = calloc(1, sizeof *problems);
+    struct api_case *c = NULL;
+    struct cJSON *tree = NULL;
+    struct failure fail;
+    char why[256];
+    if (api_case_parse(f->fake->library, text, size, "", &c, problems) != ST_OK) {
+        fail_msg("%s: %s", problems->item[0].pointer, problems->item[0].detail);
+    }
+    assert_int_equal(json_parse(text, size, &tree, &fail), ST_OK);
+    if (!schema_check(f->doc, schema_named(f, "Case"), tree, why)) {
+        fail_msg("%s: %s", api_case_def(c)->name, why);
+    }
+    json_free(tree);
+    assert_int_equal(json_parse(api_case_canonical(c), strlen(api_case_canonical(c)), &tree, &fail),
+                     ST_OK);
+    if (!schema_check(f->doc, schema_named(f, "Case"), tree, why)) {
+        fail_msg("canonical %s: %s", api_case_def(c)->name, why);
+    }
+    json_free(tree);
+    api_case_destroy(c);
+    free(problems);
+}
+
+static void test_examples(void **state)
+{
+    const struct fixture *f = *state;
+    const cJSON *body = get(get(get(operation_of(f, "/v1/jobs", "POST"), "requestBody"), "content"),
+                            "application/json");
+    const cJSON *example = NULL, *one = NULL;
+    int n = 0;
+    cJSON_ArrayForEach(example, get(body, "examples"))
+    {
+        const cJSON *value = get(example, "value");
+        const cJSON *jobs = get(value, "jobs");
+        for (one = jobs != NULL ? jobs->child : value; one != NULL;
+             one = jobs != NULL ? one->next : NULL, n++) {
+            struct json_out out = {0};
+            size_t size = 0;
+            json_value(&out, one);
+            char *text = json_out_take(&out, &size);
+            check_admissible(f, text, size);
+            free(text);
+        }
+    }
+    assert_true(n >= 5);
+    const char *text = NULL;
+    size_t size = 0;
+    for (n = 0; library_example_case(n, &text, &size) != NULL; n++) {
+        check_admissible(f, text, size);
+    }
+    assert_true(n >= 3);
+}
+
+/* -- replies */
+
+static void check_reply(const struct fixture *f, const char *path, const char *method)
+{
+    const struct api_response *res = &f->fake->answer;
+    char status[8], why[256];
+    (void)snprintf(status, sizeof status, "%d", res->status);
+    const cJSON *responses = get(operation_of(f, path, method), "responses");
+    const cJSON *response = schema_resolve(f->doc, get(responses, status));
+    if (response == NULL) {
+        fail_msg("%s %s answers %s, which is not in the document", method, path, status);
+    }
+    const cJSON *header = NULL;
+    cJSON_ArrayForEach(header, get(response, "headers"))
+    {
+        assert_true(fake_header(f->fake, header->string) != NULL ||
+                    strcmp(header->string, "Location") == 0 || strcmp(header->string, "Link") == 0);
+    }
+    if (res->body == NULL) {
+        assert_null(get(response, "content"));
+        return;
+    }
+    char type[64];
+    (void)snprintf(type, sizeof type, "%.*s", (int)strcspn(res->content_type, ";"),
+                   res->content_type);
+    const cJSON *content = get(get(response, "content"), type);
+    assert_non_null(content);
+    if (strcmp(type, "text/csv") == 0) {
+        return;
+    }
+    struct cJSON *tree = NULL;
+    struct failure fail;
+    assert_int_equal(json_parse(res->body, res->body_size, &tree, &fail), ST_OK);
+    if (!schema_check(f->doc, get(content, "schema"), tree, why)) {
+        fail_msg("%s %s %s: %s in %.300s", method, path, status, why, res->body);
+    }
+    json_free(tree);
+}
+
+static const char good_case[] =
+    "{\"schema_version\":1,\"kind\":\"section\",\"beam\":{\"section\":{\"type\":\"strip\","
+    "\"chord_m\":0.1,\"layup\":[{\"material\":\"foam\",\"thickness_m\":0.001}]}}}";
+
+/* Result documents are the fake's own words here: test_result.c checks the real ones. */
+static void test_replies(void **state)
+{
+#define ID "00000000-0000-7000-8000-000000000000"
+    static const struct {
+        const char *path, *target;
+        int status;
+    } gets[] = {
+        {"/v1/jobs", "/v1/jobs", 200},
+        {"/v1/jobs", "/v1/jobs?limit=1", 200},
+        {"/v1/jobs", "/v1/jobs?limit=x", 400},
+        {"/v1/jobs/{id}", "/v1/jobs/" ID, 200},
+        {"/v1/jobs/{id}", "/v1/jobs/x", 404},
+        {"/v1/jobs/{id}", "/v1/jobs/%zz", 400},
+        {"/v1/jobs/{id}/case", "/v1/jobs/x/case", 404},
+        {"/v1/jobs/{id}/series", "/v1/jobs/" ID "/series", 200},
+        {"/v1/jobs/{id}/series", "/v1/jobs/" ID "/series?points=10", 200},
+        {"/v1/jobs/{id}/series", "/v1/jobs/" ID "/series?format=csv", 200},
+        {"/v1/jobs/{id}/series", "/v1/jobs/" ID "/series?points=1", 400},
+        {"/v1/jobs/{id}/damping", "/v1/jobs/00000000-0000-7000-8000-000000000001/damping", 409},
+        {"/v1/jobs/{id}/summary", "/v1/jobs/x/summary", 404},
+        {"/v1/materials", "/v1/materials", 200},
+        {"/v1/materials/{name}", "/v1/materials/foam", 200},
+        {"/v1/materials/{name}", "/v1/materials/x", 404},
+        {"/v1/polars", "/v1/polars", 200},
+        {"/v1/polars/{name}", "/v1/polars/flat-plate-linear", 200},
+        {"/v1/networks", "/v1/networks", 200},
+        {"/v1/networks/{name}", "/v1/networks/x", 404},
+        {"/healthz", "/healthz", 200},
+        {"/readyz", "/readyz", 200},
+        {"/openapi.json", "/openapi.json", 200},
+    };
+    struct fixture *f = *state;
+    (void)fake_add(f->fake, CASE_SIMULATION, JOB_DONE, "a");
+    (void)fake_add(f->fake, CASE_SIMULATION, JOB_FAILED, "b");
+    for (size_t i = 0; i < sizeof gets / sizeof gets[0]; i++) {
+        assert_int_equal(fake_get(f->fake, gets[i].target), gets[i].status);
+        check_reply(f, gets[i].path, "GET");
+    }
+    assert_int_equal(fake_get_with(f->fake, "/v1/polars", NULL, "*"), 304);
+    check_reply(f, "/v1/polars", "GET");
+    f->fake->not_ready = true;
+    assert_int_equal(fake_get(f->fake, "/readyz"), 503);
+    check_reply(f, "/readyz", "GET");
+    assert_int_equal(fake_request(f->fake, "DELETE", "/v1/jobs/" ID, NULL, NULL), 200);
+    check_reply(f, "/v1/jobs/{id}", "DELETE");
+}
+
+static void test_submit_replies(void **state)
+{
+    struct fixture *f = *state;
+    char batch[600];
+    (void)snprintf(batch, sizeof batch, "{\"jobs\":[%s]}", good_case);
+    const struct {
+        const char *type, *body;
+        enum service_status refuse;
+        int status;
+    } posts[] = {
+        {"application/json", good_case, SERVICE_OK, 202},
+        {"application/json", good_case, SERVICE_OK, 200},
+        {"application/json", batch, SERVICE_OK, 200},
+        {"application/json", "{", SERVICE_OK, 400},
+        {"application/json", "{}", SERVICE_OK, 422},
+        {"text/plain", "{}", SERVICE_OK, 415},
+        {"application/json", good_case, SERVICE_BUSY, 503},
+        {"application/json", good_case, SERVICE_DISK_FULL, 507},
+        {"application/json", good_case, SERVICE_ERROR, 500},
+    };
+    for (size_t i = 0; i < sizeof posts / sizeof posts[0]; i++) {
+        f->fake->refuse = posts[i].refuse;
+        assert_int_equal(fake_request(f->fake, "POST", "/v1/jobs", posts[i].type, posts[i].body),
+                         posts[i].status);
+        check_reply(f, "/v1/jobs", "POST");
+    }
+    assert_int_equal(fake_get(f->fake, "/v1/jobs/" ID "/case"), 200);
+    check_reply(f, "/v1/jobs/{id}/case", "GET");
+}
+
+/* The checker itself refuses what does not fit: otherwise every test above could not fail. */
+static void test_checker_refuses(void **state)
+{
+    static const struct {
+        const char *schema, *value;
+        bool fits;
+    } table[] = {
+        {"Flow", "{\"speed_m_s\":1}", true},
+        {"Flow", "{}", false},
+        {"Flow", "{\"speed_m_s\":0}", false},
+        {"Flow", "{\"speed_m_s\":\"1\"}", false},
+        {"Flow", "{\"speed_m_s\":1,\"x\":1}", false},
+        {"LiftingLine", "null", true},
+        {"LiftingLine", "{\"walls\":\"root_and_far\"}", false},
+        {"LiftingLine", "{\"walls\":\"root_and_far\",\"width_m\":1}", true},
+        {"LiftingLine", "{\"walls\":\"root\",\"width_m\":1}", false},
+        {"Dynamic", "{\"type\":\"network\"}", false},
+        {"Ready", "{\"status\":\"no\"}", false},
+        {"Case",
+         "{\"schema_version\":1,\"kind\":\"modes\",\"beam\":{\"section\":{\"type\":"
+         "\"strip\",\"chord_m\":1,\"layup\":[]}}}",
+         false},
+        {"JobList", "{\"jobs\":[],\"next\":null}", true},
+        {"JobList", "{\"jobs\":[{}],\"next\":null}", false},
+    };
+    const struct fixture *f = *state;
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
+        struct cJSON *tree = NULL;
+        struct failure fail;
+        char why[256];
+        assert_int_equal(json_parse(table[i].value, strlen(table[i].value), &tree, &fail), ST_OK);
+        const bool result = schema_check(f->doc, schema_named(f, table[i].schema), tree, why);
+        if (result != table[i].fits) {
+            fail_msg("%s %s: %s", table[i].schema, table[i].value, why);
+        }
+        json_free(tree);
+    }
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
+    const struct CMUnitTest tests[] = {
+        TEST(test_routes),         TEST(test_tables),          TEST(test_defaults),
+        TEST(test_words),          TEST(test_examples),        TEST(test_replies),
+        TEST(test_submit_replies), TEST(test_checker_refuses),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
