@@ -1,0 +1,241 @@
+/* Result documents of real runs: against the schemas, and against the numbers of the core. */
+#include "api/embedded.h"
+#include "api/json.h"
+#include "api/result.h"
+#include "core/num.h"
+#include "schema_check.h"
+
+#include <cjson/cJSON.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/support/near.h"
+
+#define SECTION                                                                                    \
+    "\"section\":{\"type\":\"strip\",\"chord_m\":0.1,\"layup\":["                                  \
+    "{\"material\":\"AS4/3501-6\",\"angle_deg\":-45,\"thickness_m\":0.00013},"                     \
+    "{\"material\":\"foam\",\"thickness_m\":0.00387}]}"
+static const char *const cases[] = {
+    [CASE_SIMULATION] =
+        "{\"schema_version\":1,\"kind\":\"simulation\",\"name\":\"s\",\"beam\":{\"length_m\":0.37,"
+        "\"elements\":6," SECTION "},\"flow\":{\"speed_m_s\":6,\"incidence_deg\":5},"
+        "\"aerodynamics\":{\"polar\":\"plate-4pct-channel\"},\"solver\":{\"duration_s\":0.5}}",
+    [CASE_MODES] = "{\"schema_version\":1,\"kind\":\"modes\",\"beam\":{\"length_m\":0.37," SECTION
+                   "},\"solver\":{\"modes\":3}}",
+    [CASE_SECTION] = "{\"schema_version\":1,\"kind\":\"section\",\"beam\":{" SECTION "}}",
+};
+
+struct fixture {
+    struct library *lib;
+    cJSON *doc;
+    struct api_case *c;
+    struct sim *sim;
+};
+
+static int setup(void **state)
+{
+    struct failure fail;
+    struct fixture *f = calloc(1, sizeof *f);
+    *state = f;
+    return library_create_builtin(&f->lib, &fail) == ST_OK &&
+                   json_parse(openapi_files[0].data, embedded_size(&openapi_files[0]), &f->doc,
+                              &fail) == ST_OK
+               ? 0
+               : -1;
+}
+
+static int teardown(void **state)
+{
+    struct fixture *f = *state;
+    sim_destroy(f->sim);
+    api_case_destroy(f->c);
+    json_free(f->doc);
+    library_destroy(f->lib);
+    free(f);
+    return 0;
+}
+
+static const struct sim_result *run(struct fixture *f, enum case_kind kind)
+{
+    struct failure_list *problems = calloc(1, sizeof *problems);
+    struct failure fail = {.detail = ""};
+    assert_int_equal(api_case_parse(f->lib, cases[kind], strlen(cases[kind]), "", &f->c, problems),
+                     ST_OK);
+    if (sim_create(api_case_def(f->c), &f->sim, &fail) != ST_OK ||
+        sim_run(f->sim, &(const struct sim_control){NULL, NULL}, &fail) != ST_OK) {
+        fail_msg("%s", fail.detail);
+    }
+    free(problems);
+    return sim_result(f->sim);
+}
+
+/* The document, checked against the schema of the answer it is served in. */
+static cJSON *document(struct fixture *f, const char *name, const struct sim_result *r)
+{
+    static const struct {
+        const char *name, *schema;
+    } schemas[] = {
+        {"summary", "#/components/schemas/Summary"},
+        {"damping", "#/components/schemas/Damping"},
+        {"modes", "#/components/schemas/Modes"},
+        {"section", "#/components/schemas/SectionResult"},
+    };
+    struct cJSON *tree = NULL;
+    struct failure fail;
+    char why[256] = "no schema";
+    char *text = result_document(name, f->c, r, &(const struct run_timing){.cpu_s = 0.25});
+    assert_int_equal(json_parse(text, strlen(text), &tree, &fail), ST_OK);
+    bool ok = false;
+    for (size_t i = 0; i < sizeof schemas / sizeof schemas[0]; i++) {
+        if (strcmp(schemas[i].name, name) == 0) {
+            ok = schema_check(f->doc, schema_node(f->doc, schemas[i].schema), tree, why);
+        }
+    }
+    if (!ok) {
+        fail_msg("%s: %s in %.400s", name, why, text);
+    }
+    free(text);
+    return tree;
+}
+
+/* Number at a path of keys and indices: "means/cl", "modes/0/frequency_hz". */
+static double number(const cJSON *tree, const char *path)
+{
+    char reference[128];
+    const cJSON *node = tree;
+    (void)snprintf(reference, sizeof reference, "%s", path);
+    char *at = reference;
+    while (at != NULL && node != NULL) {
+        char *slash = strchr(at, '/');
+        if (slash != NULL) {
+            *slash = '\0';
+        }
+        node = cJSON_IsArray(node) ? cJSON_GetArrayItem(node, (int)strtol(at, NULL, 10))
+                                   : cJSON_GetObjectItemCaseSensitive(node, at);
+        at = slash != NULL ? slash + 1 : NULL;
+    }
+    if (!cJSON_IsNumber(node)) {
+        fail_msg("%s is not a number", path);
+    }
+    return node->valuedouble;
+}
+
+static const char *string(const cJSON *tree, const char *key)
+{
+    return cJSON_GetObjectItemCaseSensitive(tree, key)->valuestring;
+}
+
+static void test_simulation(void **state)
+{
+    struct fixture *f = *state;
+    const struct sim_result *r = run(f, CASE_SIMULATION);
+    cJSON *s = document(f, "summary", r);
+    assert_string_equal(string(s, "verdict"), verdict_name(r->verdict));
+    assert_string_equal(string(s, "verdict_reason"), r->verdict_reason);
+    assert_near_abs(number(s, "e_star"), r->e_star, 0.0);
+    assert_near_rel(number(s, "reynolds"), 6.0 * 0.1 / 1.5e-5, 1e-12);
+    assert_near_abs(number(s, "modes/0/frequency_hz"), r->mode[0].frequency_hz, 0.0);
+    assert_near_abs(number(s, "means/tip_twist_deg"), num_deg(r->means.tip_twist), 1e-12);
+    assert_near_abs(number(s, "means/tip_plunge_m"), r->means.tip_plunge, 0.0);
+    assert_near_abs(number(s, "timing/us_per_step"), 0.25e6 / (double)r->steps, 1e-9);
+    assert_int_equal((int)number(s, "timing/steps"), 2500);
+    assert_true(r->tip_twist.n_root > 0);
+    assert_near_rel(number(s, "damping/tip_twist/roots/0/amplitude"),
+                    num_deg(r->tip_twist.root[0].amplitude), 1e-12);
+    assert_near_abs(number(s, "damping/tip_plunge/roots/0/amplitude"),
+                    r->tip_plunge.root[0].amplitude, 0.0);
+    assert_string_equal(string(s, "wash"), "wash_out"); /* -45 deg, model section 1 */
+    const cJSON *identity = cJSON_GetObjectItemCaseSensitive(s, "identity");
+    assert_string_equal(string(identity, "content_hash"), api_case_hash(f->c));
+    assert_string_equal(string(identity, "core_version"), AEROM_CORE_VERSION);
+    assert_string_equal(string(cJSON_GetObjectItemCaseSensitive(identity, "polar"), "hash"),
+                        api_case_def(f->c)->aero.polar->hash);
+    cJSON *d = document(f, "damping", r);
+    assert_true(cJSON_Compare(d, cJSON_GetObjectItemCaseSensitive(s, "damping"), true));
+    json_free(d);
+    json_free(s);
+    json_free(document(f, "modes", r));
+    json_free(document(f, "section", r));
+}
+
+static void test_modes(void **state)
+{
+    struct fixture *f = *state;
+    const struct sim_result *r = run(f, CASE_MODES);
+    cJSON *m = document(f, "modes", r);
+    assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(m, "modes")), 3);
+    assert_near_abs(number(m, "modes/2/frequency_hz"), r->mode[2].frequency_hz, 0.0);
+    assert_near_abs(number(m, "modes/1/shape/z_m/32"), 0.37, 0.0);
+    assert_near_abs(number(m, "modes/1/shape/z_m/16"), 0.185, 1e-15);
+    assert_near_abs(number(m, "modes/1/shape/plunge/0"), 0.0, 1e-12); /* clamped */
+    double total = 0.0;
+    static const char *const parts[] = {"bending", "lag", "torsion", "axial"};
+    for (int i = 0; i < 4; i++) {
+        char path[64];
+        (void)snprintf(path, sizeof path, "modes/0/energy_share/%s", parts[i]);
+        total += number(m, path);
+    }
+    assert_near_abs(total, 1.0, 1e-9);
+    json_free(m);
+    cJSON *s = document(f, "summary", r);
+    assert_string_equal(string(s, "kind"), "modes");
+    assert_null(cJSON_GetObjectItemCaseSensitive(s, "e_star"));
+    json_free(s);
+    json_free(document(f, "section", r));
+}
+
+static void test_section(void **state)
+{
+    struct fixture *f = *state;
+    const struct sim_result *r = run(f, CASE_SECTION);
+    cJSON *s = document(f, "section", r);
+    for (int i = 0; i < SECTION_STRAINS; i++) {
+        for (int j = 0; j < SECTION_STRAINS; j++) {
+            char path[48];
+            (void)snprintf(path, sizeof path, "stiffness/%d/%d", i, j);
+            assert_near_abs(number(s, path), r->section.stiffness[i + j * SECTION_STRAINS], 0.0);
+        }
+    }
+    assert_near_rel(number(s, "mass_kg_m"), 0.1 * (0.00013 * 1445 + 0.00387 * 35), 1e-12);
+    assert_near_rel(number(s, "thickness_m"), 0.004, 1e-12);
+    assert_near_rel(number(s, "mass/0/0"), number(s, "mass_kg_m"), 1e-9);
+    json_free(s);
+    json_free(document(f, "summary", r));
+}
+
+/* A number that is not finite is null, never text that is no JSON. */
+static void test_not_finite(void **state)
+{
+    struct fixture *f = *state;
+    struct sim_result r = *run(f, CASE_SIMULATION);
+    r.e_star = (double)INFINITY;
+    r.means.cl = (double)NAN;
+    r.tip_twist.hilbert_ratio = (double)NAN;
+    r.tip_twist.torsion = -1;
+    r.steps = 0;
+    cJSON *s = document(f, "summary", &r);
+    assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(s, "e_star")));
+    const cJSON *timing = cJSON_GetObjectItemCaseSensitive(s, "timing");
+    assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(timing, "us_per_step")));
+    json_free(s);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
+    const struct CMUnitTest tests[] = {
+        TEST(test_simulation),
+        TEST(test_modes),
+        TEST(test_section),
+        TEST(test_not_finite),
+    };
+    sim_process_init();
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
