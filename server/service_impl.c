@@ -2,9 +2,9 @@
 
 #include "server/clock.h"
 #include "server/id.h"
+#include "server/series_read.h"
 
 #include <assert.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -256,111 +256,16 @@ static enum service_status service_get_document(void *ctx, const char *id, const
 /* -- series
  * ------------------------------------------------------------------------------------------ */
 
-/* "modal_amplitude" and "modal_amplitude[2]" both ask for the column modal_amplitude[2]. */
-static bool column_matches(const char *column, const char *asked)
-{
-    const size_t n = strlen(asked);
-    return strncmp(column, asked, n) == 0 && (column[n] == '\0' || column[n] == '[');
-}
-
-static int first_unknown(const struct series_data *all, int n_channel, const char *const *channel)
-{
-    for (int i = 0; i < n_channel; i++) {
-        bool known = false;
-        for (int j = 0; j < all->n_column; j++) {
-            known = known || column_matches(all->column[j].name, channel[i]);
-        }
-        if (!known) {
-            return i;
-        }
-    }
-    return -1;
-}
-
-static bool is_asked(const char *column, int n_channel, const char *const *channel)
-{
-    bool asked = n_channel == 0;
-    for (int i = 0; i < n_channel; i++) {
-        asked = asked || column_matches(column, channel[i]);
-    }
-    return asked;
-}
-
-/* Samples with from <= t <= to, where the ends may miss a sample's time by rounding. */
-static void window(const struct series_data *all, double from_s, double to_s, int *first, int *n)
-{
-    const double slack = 1e-6;
-    double lo = ceil((from_s - all->t0) / all->step - slack);
-    double hi = floor((to_s - all->t0) / all->step + slack);
-    lo = lo > 0.0 ? lo : 0.0;
-    hi = hi < all->n - 1 ? hi : all->n - 1;
-    *first = lo <= hi ? (int)lo : 0;
-    *n = lo <= hi ? (int)(hi - lo) + 1 : 0;
-}
-
-struct series_ask {
-    const char *id;
-    int n_channel;
-    const char *const *channel;
-    double from_s, to_s;
-};
-
-/* Keeps the asked columns of *data and fills in their samples. */
-static enum store_status read_samples(struct store_session *r, const struct series_ask *ask,
-                                      struct series_data *data)
-{
-    int first = 0, n = 0, kept = 0;
-    window(data, ask->from_s, ask->to_s, &first, &n);
-    enum store_status st = STORE_OK;
-    for (int j = 0; st == STORE_OK && j < data->n_column; j++) {
-        if (!is_asked(data->column[j].name, ask->n_channel, ask->channel)) {
-            continue;
-        }
-        double *value = malloc((size_t)(n > 0 ? n : 1) * sizeof *value);
-        data->column[kept] = data->column[j];
-        data->column[kept].value = value;
-        st = value == NULL ? STORE_ERROR : STORE_OK;
-        if (st == STORE_OK && n > 0) {
-            st = r->ops->get_samples(r, ask->id, j, first, n, value);
-        }
-        kept++;
-    }
-    data->n_column = kept;
-    data->t0 += first * data->step;
-    data->n = n;
-    return st;
-}
-
 static enum service_status service_get_series(void *ctx, const char *id, int n_channel,
                                               const char *const *channel, double from_s,
                                               double to_s, struct series_data *out,
                                               int *bad_channel)
 {
     const struct service_impl *s = ctx;
+    const struct series_ask ask = {id, n_channel, channel, from_s, to_s};
     *bad_channel = -1;
     struct store_session *r = take(s);
-    if (r == NULL) {
-        return SERVICE_ERROR;
-    }
-    struct series_data data = {.n = 0};
-    enum store_status st = r->ops->get_series(r, id, &data);
-    if (st == STORE_OK) {
-        *bad_channel = first_unknown(&data, n_channel, channel);
-        const struct series_ask ask = {id, n_channel, channel, from_s, to_s};
-        if (*bad_channel >= 0) {
-            st = STORE_NONE;
-            data.n_column = 0; /* no values to free */
-        } else {
-            st = read_samples(r, &ask, &data);
-        }
-    }
-    const enum service_status status = give(s, r, st);
-    if (status == SERVICE_OK) {
-        *out = data;
-    } else {
-        series_data_done(&data);
-    }
-    return status;
+    return r == NULL ? SERVICE_ERROR : give(s, r, series_read(r, &ask, out, bad_channel));
 }
 
 static enum service_status service_get_columns(void *ctx, const char *id, char (**out)[64], int *n)

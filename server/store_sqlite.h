@@ -82,6 +82,10 @@ char *sql_strdup(struct sql *q, int column);
 enum store_status sqlite_find_job(struct store_session *s, const char *id, int64_t *seq,
                                   enum job_state *state);
 
+/* Stores the result of a job whose fence has been checked. */
+enum store_status sqlite_insert_result(struct store_session *s, int64_t seq, int64_t fence,
+                                       const struct store_result *result, int64_t now);
+
 /* Operations, by file. */
 enum store_status sqlite_begin(struct store_session *s);
 enum store_status sqlite_mark(struct store_session *s);
