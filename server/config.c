@@ -77,8 +77,7 @@ static bool set(struct config *c, const struct key *key, const char *text, const
     return true;
 }
 
-/* -- defaults
- * ---------------------------------------------------------------------------------------- */
+/* -- defaults --------------------------------------------------------------------------- */
 
 static const char *lookup(char *const environment[], const char *name)
 {
@@ -115,8 +114,7 @@ static bool defaults(struct config *c, char *const environment[], char why[CONFI
     return true;
 }
 
-/* -- file
- * -------------------------------------------------------------------------------------------- */
+/* -- file ------------------------------------------------------------------------------- */
 
 struct file_read {
     struct config *config;
@@ -174,8 +172,7 @@ static bool read_file(struct config *c, const char *path, char why[CONFIG_MESSAG
     return rc == 0;
 }
 
-/* -- environment and flags
- * --------------------------------------------------------------------------- */
+/* -- environment and flags -------------------------------------------------------------- */
 
 static const char prefix[] = "AEROMD_";
 

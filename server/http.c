@@ -54,8 +54,7 @@ struct request {
     struct api_response response;
 };
 
-/* -- answers
- * ----------------------------------------------------------------------------------------- */
+/* -- answers ---------------------------------------------------------------------------- */
 
 /* Called once for each routed request, from any thread. The request stays until the library has
  * sent the answer, and that cannot be before the mutex is released. */
@@ -108,8 +107,7 @@ static enum MHD_Result refuse(struct request *r, int status, const char *code, c
     return queue_response(r, true);
 }
 
-/* -- requests
- * ---------------------------------------------------------------------------------------- */
+/* -- requests --------------------------------------------------------------------------- */
 
 struct header_count {
     int content_length, transfer_encoding, host;
@@ -329,8 +327,7 @@ static size_t keep_escapes(void *arg, struct MHD_Connection *connection, char *t
     return strlen(text);
 }
 
-/* -- life
- * -------------------------------------------------------------------------------------------- */
+/* -- life ------------------------------------------------------------------------------- */
 
 static struct MHD_Daemon *start_daemon(struct http_server *h,
                                        const struct sockaddr_storage *address, int threads)

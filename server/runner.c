@@ -29,8 +29,7 @@ static void from_failure(struct run_outcome *out, enum status st, const struct f
                fail->detail[0] != '\0' ? fail->detail : status_text(st));
 }
 
-/* -- series
- * ------------------------------------------------------------------------------------------ */
+/* -- series ----------------------------------------------------------------------------- */
 
 /* One chunk in presented units, its data in a block of exactly its size. */
 static bool encode_chunk(const double *value, int n, double scale, void *buffer,
@@ -93,8 +92,7 @@ static bool encode_series(struct run_outcome *out, const struct case_def *def,
     return ok;
 }
 
-/* -- one run
- * ----------------------------------------------------------------------------------------- */
+/* -- one run ---------------------------------------------------------------------------- */
 
 static bool make_documents(struct run_outcome *out, const struct api_case *c,
                            const struct sim_result *r, const struct run_timing *timing)

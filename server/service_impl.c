@@ -42,8 +42,7 @@ static enum service_status service_status_of(enum store_status st)
     return SERVICE_ERROR;
 }
 
-/* -- writes
- * ------------------------------------------------------------------------------------------ */
+/* -- writes ----------------------------------------------------------------------------- */
 
 struct submit_request {
     struct write_request base;
@@ -176,8 +175,7 @@ static void service_cancel(void *ctx, const char *id, service_cancel_done done, 
     }
 }
 
-/* -- reads
- * ------------------------------------------------------------------------------------------- */
+/* -- reads ------------------------------------------------------------------------------ */
 
 static struct store_session *take(const struct service_impl *s)
 {
@@ -253,8 +251,7 @@ static enum service_status service_get_document(void *ctx, const char *id, const
     return r == NULL ? SERVICE_ERROR : give(s, r, r->ops->get_document(r, id, document, json));
 }
 
-/* -- series
- * ------------------------------------------------------------------------------------------ */
+/* -- series ----------------------------------------------------------------------------- */
 
 static enum service_status service_get_series(void *ctx, const char *id, int n_channel,
                                               const char *const *channel, double from_s,
@@ -294,8 +291,7 @@ static enum service_status service_get_columns(void *ctx, const char *id, char (
     return SERVICE_OK;
 }
 
-/* -- life
- * -------------------------------------------------------------------------------------------- */
+/* -- life ------------------------------------------------------------------------------- */
 
 static bool service_ready(void *ctx, const char **why)
 {

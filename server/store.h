@@ -89,7 +89,7 @@ struct store_session {
 };
 
 struct store_ops {
-    /* -- sessions ------------------------------------------------------------------------------ */
+    /* -- sessions ----------------------------------------------------------------------- */
     /* The writer session; always the same one. */
     struct store_session *(*writer)(struct store *st);
     /* Borrows a reader, waiting for one when all are out; NULL when none can be opened. */
@@ -100,8 +100,7 @@ struct store_ops {
     int64_t (*space)(struct store *st);
     void (*close)(struct store *st);
 
-    /* -- transactions: begin, then for each request mark + (release | undo), then commit --------
-     */
+    /* -- transactions: begin, for each request mark + (release or undo), then commit ---- */
     enum store_status (*begin)(struct store_session *s);
     enum store_status (*mark)(struct store_session *s);
     enum store_status (*release)(struct store_session *s);
@@ -113,8 +112,7 @@ struct store_ops {
     /* Moves the log into the database file as far as its readers allow, when it is due. */
     enum store_status (*checkpoint)(struct store_session *s, enum store_tidy when);
 
-    /* -- writes, inside a transaction; all times are wall microseconds ----------------------------
-     */
+    /* -- writes, inside a transaction; all times are wall microseconds ------------------ */
     /* Accepts one case under the given new id, or finds the job that answers an equal one. */
     enum store_status (*submit)(struct store_session *s, const struct service_submit *item,
                                 const char *new_id, int64_t now, struct service_submitted *out);
@@ -140,8 +138,7 @@ struct store_ops {
     enum store_status (*recover)(struct store_session *s, const char *owner, int64_t now,
                                  int attempts_max, struct store_recovered *out);
 
-    /* -- reads, any session ---------------------------------------------------------------------
-     */
+    /* -- reads, any session ------------------------------------------------------------- */
     enum store_status (*get)(struct store_session *s, const char *id, struct job_record *out);
     enum store_status (*list)(struct store_session *s, const struct service_filter *filter,
                               struct job_record **out, int *n, bool *more);

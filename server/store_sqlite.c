@@ -100,8 +100,7 @@ static void session_close(struct sqlite_session *s)
     s->db = NULL;
 }
 
-/* -- schema: the SQLite side of migrate.h
- * ---------------------------------------------------------- */
+/* -- schema: the SQLite side of migrate.h ----------------------------------------------- */
 
 static enum store_status schema_version(void *ctx, int *out)
 {
@@ -174,8 +173,7 @@ static enum store_status schema_apply(void *ctx, const struct migration *m)
     return sqlite_status(rc);
 }
 
-/* -- the lock file
- * --------------------------------------------------------------------------------- */
+/* -- the lock file ---------------------------------------------------------------------- */
 
 /* The kernel drops the lock with the process, however it ends. */
 static enum store_status lock_take(const char *path, int *fd_out, char why[STORE_MESSAGE])
@@ -224,8 +222,7 @@ static enum store_status make_directory(const char *path, char why[STORE_MESSAGE
     return STORE_OK;
 }
 
-/* -- sessions
- * ---------------------------------------------------------------------------------------- */
+/* -- sessions --------------------------------------------------------------------------- */
 
 static struct sqlite_store *store_of(struct store *st)
 {

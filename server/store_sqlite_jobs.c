@@ -45,8 +45,7 @@ static enum store_status dequeue(struct store_session *s, int64_t seq)
     return sql_run(&q);
 }
 
-/* -- submit
- * ------------------------------------------------------------------------------------------ */
+/* -- submit ----------------------------------------------------------------------------- */
 
 static enum store_status find_equal(struct store_session *s, const char *hash,
                                     struct service_submitted *out)
@@ -104,8 +103,7 @@ enum store_status sqlite_submit(struct store_session *s, const struct service_su
     return st;
 }
 
-/* -- claim and its ends
- * ------------------------------------------------------------------------------ */
+/* -- claim and its ends ----------------------------------------------------------------- */
 
 static enum store_status lease_oldest(struct store_session *s, const char *owner, int64_t now,
                                       int64_t lease_until, int64_t *seq, int64_t *fence)
@@ -306,8 +304,7 @@ enum store_status sqlite_cancel(struct store_session *s, const char *id, int64_t
     return st == STORE_OK ? sqlite_get(s, id, out) : st;
 }
 
-/* -- recovery
- * ---------------------------------------------------------------------------------------- */
+/* -- recovery --------------------------------------------------------------------------- */
 
 struct lost_job {
     int64_t seq;

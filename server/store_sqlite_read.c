@@ -46,8 +46,7 @@ enum store_status sqlite_get(struct store_session *s, const char *id, struct job
     return st == STORE_OK && !found ? STORE_NONE : st;
 }
 
-/* -- list: one constant statement for each set of filters
- * ------------------------------------------- */
+/* -- list: one constant statement for each set of filters ------------------------------- */
 
 #define F_STATE "AND state = ?2 "
 #define F_KIND "AND kind = ?3 "
@@ -123,8 +122,7 @@ enum store_status sqlite_list(struct store_session *s, const struct service_filt
     return STORE_OK;
 }
 
-/* -- cases and results
- * -------------------------------------------------------------------------------- */
+/* -- cases and results ------------------------------------------------------------------ */
 
 static enum store_status read_text(struct sql *q, char **out)
 {

@@ -39,8 +39,7 @@ static int64_t lease_end(int64_t now)
     return now + LEASE_S * INT64_C(1000000);
 }
 
-/* -- claim
- * ------------------------------------------------------------------------------------------- */
+/* -- claim ------------------------------------------------------------------------------ */
 
 struct claim_request {
     struct write_request base;
@@ -78,8 +77,7 @@ static enum store_status claim_job(const struct worker *w, struct store_claim *o
     return st;
 }
 
-/* -- the end of a claim
- * ------------------------------------------------------------------------------ */
+/* -- the end of a claim ----------------------------------------------------------------- */
 
 struct end_request {
     struct write_request base;
@@ -197,8 +195,7 @@ static void *worker_main(void *arg)
     return NULL;
 }
 
-/* -- leases
- * ------------------------------------------------------------------------------------------ */
+/* -- leases ----------------------------------------------------------------------------- */
 
 static enum store_status keep_apply(struct write_request *r, struct store_session *s)
 {
@@ -274,8 +271,7 @@ enum store_status workers_recover(const struct worker_env *env)
     return st;
 }
 
-/* -- start and stop
- * ---------------------------------------------------------------------------------- */
+/* -- start and stop --------------------------------------------------------------------- */
 
 enum store_status workers_start(const struct worker_env *env, struct workers **out)
 {

@@ -10,8 +10,7 @@
 
 #include <sqlite3.h>
 
-/* -- the logic, on a database in memory
- * ------------------------------------------------------------ */
+/* -- the logic, on a database in memory ------------------------------------------------- */
 
 struct fake {
     int version;
@@ -96,8 +95,7 @@ static void test_refusals(void **state)
     assert_non_null(strstr(why, "version 2"));
 }
 
-/* -- the SQLite side
- * -------------------------------------------------------------------------------- */
+/* -- the SQLite side -------------------------------------------------------------------- */
 
 /* Closes the store, changes the database behind its back, opens it again. */
 static enum store_status reopen_after(struct fixture *f, const char *sql, char *why)
