@@ -1,4 +1,4 @@
-#include "fake_service.h"
+#include "tests/api/fake_service.h"
 
 #include "api/text.h"
 
@@ -245,34 +245,46 @@ struct fake *fake_create(void)
     return f;
 }
 
-void fake_destroy(struct fake *f)
+void fake_reset(struct fake *f)
 {
     for (int i = 0; i < f->n_job; i++) {
         free(f->job[i].case_json);
+        f->job[i] = (struct fake_job){0};
     }
+    f->n_job = 0;
+}
+
+void fake_destroy(struct fake *f)
+{
+    fake_reset(f);
     api_response_done(&f->answer);
     library_destroy(f->library);
     free(f);
 }
 
+/* Decodes one text into `*space` and moves it on; "" when it cannot be decoded or does not fit. */
+static const char *take_text(const char *text, size_t n, char **space, size_t *size)
+{
+    char *out = *space;
+    if (*size == 0 || !text_percent_decode(text, n, *size, out)) {
+        return "";
+    }
+    const size_t used = strlen(out) + 1;
+    *space += used;
+    *size -= used;
+    return out;
+}
+
 /* Cuts "a=1&b" into decoded keys and values; all text lives in `space`. */
 static void parse_query(const char *query, char *space, size_t size, struct api_request *req)
 {
-    while (*query != '\0') {
+    while (*query != '\0' && req->n_query < API_QUERY_MAX) {
         const size_t whole = strcspn(query, "&");
         const size_t key = strcspn(query, "=&");
-        struct api_query *q = &req->query[req->n_query++];
-        assert(req->n_query <= API_QUERY_MAX);
         const size_t value = key < whole ? key + 1 : whole;
-        bool ok = text_percent_decode(query, key, size, space);
-        q->key = space;
-        size -= strlen(space) + 1;
-        space += strlen(space) + 1;
-        ok = text_percent_decode(query + value, whole - value, size, space) && ok;
-        q->value = space;
-        size -= strlen(space) + 1;
-        space += strlen(space) + 1;
-        assert(ok);
+        struct api_query *q = &req->query[req->n_query++];
+        q->key = take_text(query, key, &space, &size);
+        q->value = take_text(query + value, whole - value, &space, &size);
         query += whole + (query[whole] == '&' ? 1 : 0);
     }
 }
@@ -292,14 +304,18 @@ static int send_request(struct fake *f, struct api_request *req, const char *tar
     return f->answer.status;
 }
 
+int fake_send(struct fake *f, const char *method, const char *target, const char *content_type,
+              const char *body, size_t body_size)
+{
+    struct api_request req = {
+        .method = method, .content_type = content_type, .body = body, .body_size = body_size};
+    return send_request(f, &req, target);
+}
+
 int fake_request(struct fake *f, const char *method, const char *target, const char *content_type,
                  const char *body)
 {
-    struct api_request req = {.method = method,
-                              .content_type = content_type,
-                              .body = body,
-                              .body_size = body != NULL ? strlen(body) : 0};
-    return send_request(f, &req, target);
+    return fake_send(f, method, target, content_type, body, body != NULL ? strlen(body) : 0);
 }
 
 int fake_get(struct fake *f, const char *target)

@@ -28,6 +28,8 @@ struct fake {
 /* Builds the service and the built-in library. */
 struct fake *fake_create(void);
 void fake_destroy(struct fake *f);
+/* Forgets every job. */
+void fake_reset(struct fake *f);
 
 /* Adds a job as a worker would have left it. Returns it. */
 struct fake_job *fake_add(struct fake *f, enum case_kind kind, enum job_state state,
@@ -37,6 +39,9 @@ struct fake_job *fake_add(struct fake *f, enum case_kind kind, enum job_state st
  * NULL. Returns the answer's status. */
 int fake_request(struct fake *f, const char *method, const char *target, const char *content_type,
                  const char *body);
+/* The same for any bytes as body. */
+int fake_send(struct fake *f, const char *method, const char *target, const char *content_type,
+              const char *body, size_t body_size);
 int fake_get(struct fake *f, const char *target);
 /* A GET with Accept and If-None-Match. */
 int fake_get_with(struct fake *f, const char *target, const char *accept, const char *etag);

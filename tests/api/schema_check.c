@@ -1,4 +1,4 @@
-#include "schema_check.h"
+#include "tests/api/schema_check.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>

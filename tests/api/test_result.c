@@ -3,7 +3,7 @@
 #include "api/json.h"
 #include "api/result.h"
 #include "core/num.h"
-#include "schema_check.h"
+#include "tests/api/schema_check.h"
 
 #include <cjson/cJSON.h>
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* Series as JSON and CSV, and the min-max thinning against brute force. */
 #include "api/json.h"
 #include "api/series_out.h"
-#include "fake_service.h"
+#include "tests/api/fake_service.h"
 
 #include <cjson/cJSON.h>
 #include <setjmp.h>

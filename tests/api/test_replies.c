@@ -1,0 +1,235 @@
+/* Recorded replies against the OpenAPI document: status, headers, media type and body. */
+#include "api/embedded.h"
+#include "api/json.h"
+#include "tests/api/fake_service.h"
+#include "tests/api/schema_check.h"
+
+#include <cjson/cJSON.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+struct fixture {
+    struct fake *fake;
+    cJSON *doc;
+};
+
+static int setup(void **state)
+{
+    struct fixture *f = calloc(1, sizeof *f);
+    struct failure fail;
+    f->fake = fake_create();
+    if (json_parse(openapi_files[0].data, embedded_size(&openapi_files[0]), &f->doc, &fail) !=
+        ST_OK) {
+        print_error("openapi.json%s: %s\n", fail.pointer, fail.detail);
+        return -1;
+    }
+    *state = f;
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    struct fixture *f = *state;
+    json_free(f->doc);
+    fake_destroy(f->fake);
+    free(f);
+    return 0;
+}
+
+static const cJSON *get(const cJSON *object, const char *key)
+{
+    return cJSON_GetObjectItemCaseSensitive(object, key);
+}
+
+static const cJSON *schema_named(const struct fixture *f, const char *name)
+{
+    const cJSON *s = get(get(get(f->doc, "components"), "schemas"), name);
+    assert_non_null(s);
+    return s;
+}
+
+static const cJSON *operation_of(const struct fixture *f, const char *path, const char *method)
+{
+    char lower[16] = "";
+    for (size_t i = 0; method[i] != '\0' && i + 1 < sizeof lower; i++) {
+        lower[i] = (char)(method[i] | 0x20);
+        lower[i + 1] = '\0';
+    }
+    return get(get(get(f->doc, "paths"), path), lower);
+}
+
+static void check_reply(const struct fixture *f, const char *path, const char *method)
+{
+    const struct api_response *res = &f->fake->answer;
+    char status[8], why[256];
+    (void)snprintf(status, sizeof status, "%d", res->status);
+    const cJSON *responses = get(operation_of(f, path, method), "responses");
+    const cJSON *response = schema_resolve(f->doc, get(responses, status));
+    if (response == NULL) {
+        fail_msg("%s %s answers %s, which is not in the document", method, path, status);
+    }
+    const cJSON *header = NULL;
+    cJSON_ArrayForEach(header, get(response, "headers"))
+    {
+        assert_true(fake_header(f->fake, header->string) != NULL ||
+                    strcmp(header->string, "Location") == 0 || strcmp(header->string, "Link") == 0);
+    }
+    if (res->body == NULL) {
+        assert_null(get(response, "content"));
+        return;
+    }
+    char type[64];
+    (void)snprintf(type, sizeof type, "%.*s", (int)strcspn(res->content_type, ";"),
+                   res->content_type);
+    const cJSON *content = get(get(response, "content"), type);
+    assert_non_null(content);
+    if (strcmp(type, "text/csv") == 0) {
+        return;
+    }
+    struct cJSON *tree = NULL;
+    struct failure fail;
+    assert_int_equal(json_parse(res->body, res->body_size, &tree, &fail), ST_OK);
+    if (!schema_check(f->doc, get(content, "schema"), tree, why)) {
+        fail_msg("%s %s %s: %s in %.300s", method, path, status, why, res->body);
+    }
+    json_free(tree);
+}
+
+static const char good_case[] =
+    "{\"schema_version\":1,\"kind\":\"section\",\"beam\":{\"section\":{\"type\":\"strip\","
+    "\"chord_m\":0.1,\"layup\":[{\"material\":\"foam\",\"thickness_m\":0.001}]}}}";
+
+/* Result documents are the fake's own words here: test_result.c checks the real ones. */
+static void test_replies(void **state)
+{
+#define ID "00000000-0000-7000-8000-000000000000"
+    static const struct {
+        const char *path, *target;
+        int status;
+    } gets[] = {
+        {"/v1/jobs", "/v1/jobs", 200},
+        {"/v1/jobs", "/v1/jobs?limit=1", 200},
+        {"/v1/jobs", "/v1/jobs?limit=x", 400},
+        {"/v1/jobs/{id}", "/v1/jobs/" ID, 200},
+        {"/v1/jobs/{id}", "/v1/jobs/x", 404},
+        {"/v1/jobs/{id}", "/v1/jobs/%zz", 400},
+        {"/v1/jobs/{id}/case", "/v1/jobs/x/case", 404},
+        {"/v1/jobs/{id}/series", "/v1/jobs/" ID "/series", 200},
+        {"/v1/jobs/{id}/series", "/v1/jobs/" ID "/series?points=10", 200},
+        {"/v1/jobs/{id}/series", "/v1/jobs/" ID "/series?format=csv", 200},
+        {"/v1/jobs/{id}/series", "/v1/jobs/" ID "/series?points=1", 400},
+        {"/v1/jobs/{id}/damping", "/v1/jobs/00000000-0000-7000-8000-000000000001/damping", 409},
+        {"/v1/jobs/{id}/summary", "/v1/jobs/x/summary", 404},
+        {"/v1/materials", "/v1/materials", 200},
+        {"/v1/materials/{name}", "/v1/materials/foam", 200},
+        {"/v1/materials/{name}", "/v1/materials/x", 404},
+        {"/v1/polars", "/v1/polars", 200},
+        {"/v1/polars/{name}", "/v1/polars/flat-plate-linear", 200},
+        {"/v1/networks", "/v1/networks", 200},
+        {"/v1/networks/{name}", "/v1/networks/x", 404},
+        {"/healthz", "/healthz", 200},
+        {"/readyz", "/readyz", 200},
+        {"/openapi.json", "/openapi.json", 200},
+    };
+    struct fixture *f = *state;
+    (void)fake_add(f->fake, CASE_SIMULATION, JOB_DONE, "a");
+    (void)fake_add(f->fake, CASE_SIMULATION, JOB_FAILED, "b");
+    for (size_t i = 0; i < sizeof gets / sizeof gets[0]; i++) {
+        assert_int_equal(fake_get(f->fake, gets[i].target), gets[i].status);
+        check_reply(f, gets[i].path, "GET");
+    }
+    assert_int_equal(fake_get_with(f->fake, "/v1/polars", NULL, "*"), 304);
+    check_reply(f, "/v1/polars", "GET");
+    f->fake->not_ready = true;
+    assert_int_equal(fake_get(f->fake, "/readyz"), 503);
+    check_reply(f, "/readyz", "GET");
+    assert_int_equal(fake_request(f->fake, "DELETE", "/v1/jobs/" ID, NULL, NULL), 200);
+    check_reply(f, "/v1/jobs/{id}", "DELETE");
+}
+
+static void test_submit_replies(void **state)
+{
+    struct fixture *f = *state;
+    char batch[600];
+    (void)snprintf(batch, sizeof batch, "{\"jobs\":[%s]}", good_case);
+    const struct {
+        const char *type, *body;
+        enum service_status refuse;
+        int status;
+    } posts[] = {
+        {"application/json", good_case, SERVICE_OK, 202},
+        {"application/json", good_case, SERVICE_OK, 200},
+        {"application/json", batch, SERVICE_OK, 200},
+        {"application/json", "{", SERVICE_OK, 400},
+        {"application/json", "{}", SERVICE_OK, 422},
+        {"text/plain", "{}", SERVICE_OK, 415},
+        {"application/json", good_case, SERVICE_BUSY, 503},
+        {"application/json", good_case, SERVICE_DISK_FULL, 507},
+        {"application/json", good_case, SERVICE_ERROR, 500},
+    };
+    for (size_t i = 0; i < sizeof posts / sizeof posts[0]; i++) {
+        f->fake->refuse = posts[i].refuse;
+        assert_int_equal(fake_request(f->fake, "POST", "/v1/jobs", posts[i].type, posts[i].body),
+                         posts[i].status);
+        check_reply(f, "/v1/jobs", "POST");
+    }
+    assert_int_equal(fake_get(f->fake, "/v1/jobs/" ID "/case"), 200);
+    check_reply(f, "/v1/jobs/{id}/case", "GET");
+}
+
+/* The checker itself refuses what does not fit: otherwise every test above could not fail. */
+static void test_checker_refuses(void **state)
+{
+    static const struct {
+        const char *schema, *value;
+        bool fits;
+    } table[] = {
+        {"Flow", "{\"speed_m_s\":1}", true},
+        {"Flow", "{}", false},
+        {"Flow", "{\"speed_m_s\":0}", false},
+        {"Flow", "{\"speed_m_s\":\"1\"}", false},
+        {"Flow", "{\"speed_m_s\":1,\"x\":1}", false},
+        {"LiftingLine", "null", true},
+        {"LiftingLine", "{\"walls\":\"root_and_far\"}", false},
+        {"LiftingLine", "{\"walls\":\"root_and_far\",\"width_m\":1}", true},
+        {"LiftingLine", "{\"walls\":\"root\",\"width_m\":1}", false},
+        {"Dynamic", "{\"type\":\"network\"}", false},
+        {"Ready", "{\"status\":\"no\"}", false},
+        {"Case",
+         "{\"schema_version\":1,\"kind\":\"modes\",\"beam\":{\"section\":{\"type\":"
+         "\"strip\",\"chord_m\":1,\"layup\":[]}}}",
+         false},
+        {"JobList", "{\"jobs\":[],\"next\":null}", true},
+        {"JobList", "{\"jobs\":[{}],\"next\":null}", false},
+    };
+    const struct fixture *f = *state;
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
+        struct cJSON *tree = NULL;
+        struct failure fail;
+        char why[256];
+        assert_int_equal(json_parse(table[i].value, strlen(table[i].value), &tree, &fail), ST_OK);
+        const bool result = schema_check(f->doc, schema_named(f, table[i].schema), tree, why);
+        if (result != table[i].fits) {
+            fail_msg("%s %s: %s", table[i].schema, table[i].value, why);
+        }
+        json_free(tree);
+    }
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
+    const struct CMUnitTest tests[] = {
+        TEST(test_replies),
+        TEST(test_submit_replies),
+        TEST(test_checker_refuses),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
