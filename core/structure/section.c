@@ -13,7 +13,11 @@ enum { N = SECTION_STRAIN_COUNT };
 static void integrate_stiffness(const struct contour *c, const struct laminate *lam,
                                 const struct warping *w, int n_strain, double *out)
 {
-    memset(out, 0, (size_t)(n_strain * n_strain) * sizeof *out);
+    for (int a = 0; a < n_strain; a++) {
+        for (int b = 0; b < n_strain; b++) {
+            out[a + n_strain * b] = w->wall_shear[num_at(a, b, N)];
+        }
+    }
     for (int i = 0; i < c->n_element; i++) {
         const struct contour_element *el = &c->element[i];
         const struct laminate *l = &lam[el->laminate];
@@ -29,10 +33,7 @@ static void integrate_stiffness(const struct contour *c, const struct laminate *
                         sum += e[WALL_STRAINS * a + r] *
                                warping_flow(l->reduced, r, e + WALL_STRAINS * (ptrdiff_t)b);
                     }
-                    /* Transverse shear of the wall, gamma_nz of Eq. (A.7). */
-                    const double na = a == S_GXZ ? p.dy : (a == S_GYZ ? -p.dx : 0.0);
-                    const double nb = b == S_GXZ ? p.dy : (b == S_GYZ ? -p.dx : 0.0);
-                    out[a + n_strain * b] += weight * (sum + na * nb * l->shear_zn);
+                    out[a + n_strain * b] += weight * sum;
                 }
             }
         }

@@ -139,28 +139,68 @@ static void solve_held(const struct system *s, double *rhs)
     la_cholesky_solve(s->n, s->factor, 1, rhs + 1);
 }
 
-/* Work of the axial flow of unit strain k of `w` on warping shapes: force on the nodes (n_node),
- * and on the out-of-plane part n r_t of the warping of theta' (returned). */
-static double axial_flow(const struct contour *c, const struct laminate *lam,
-                         const struct warping *w, int k, double *force)
+/* Axial force N_zz of unit strain k on the nodes (n_node). */
+static void axial_flow(const struct contour *c, const struct laminate *lam, const struct warping *w,
+                       int k, double *force)
 {
-    double couple_work = 0.0;
     for (int i = 0; i < c->n_element; i++) {
         const struct contour_element *el = &c->element[i];
-        const double *r = lam[el->laminate].reduced;
         for (int q = 0; q < CONTOUR_GAUSS; q++) {
             const struct contour_point p = contour_at(el, contour_gauss_point[q]);
             double e[WALL_STRAINS * N];
             warping_strains(w, el, &p, e);
-            const double *unit = e + WALL_STRAINS * (ptrdiff_t)k;
-            const double weight = contour_gauss_weight[q] * p.jacobian;
+            const double flow =
+                warping_flow(lam[el->laminate].reduced, W_EPS, e + WALL_STRAINS * (ptrdiff_t)k);
             for (int a = 0; a < 3; a++) {
-                force[el->node[a]] += weight * p.shape[a] * warping_flow(r, W_EPS, unit);
+                force[el->node[a]] += contour_gauss_weight[q] * p.jacobian * p.shape[a] * flow;
             }
-            couple_work += weight * p.r_t * warping_flow(r, W_KAPPA, unit);
         }
     }
-    return couple_work;
+}
+
+/* What the stress couples of the constraining strains do: on the out-of-plane warping n r_t of
+ * theta', on the transverse shear gamma_nz of Eq. (A.7), and on each other through the shear
+ * compliance of the wall. Against the shear the couple counts about n_s =
+ * R_gamma,twist/R_gamma,gamma, where the shear flow of the wall acts: only what that flow leaves of
+ * it goes through N_zn. */
+struct couples {
+    double warping[CONSTRAINTS];                  /* int L_j r_t ds */
+    double shear[CONSTRAINTS * N];                /* int L_j gamma_nz(k) ds (CONSTRAINTS x N) */
+    double compliance[CONSTRAINTS * CONSTRAINTS]; /* int L_i L_j / K_zn ds */
+};
+
+static const int constraint_source[CONSTRAINTS] = {S_W, S_PSI, S_PHI};
+
+static void integrate_couples(const struct contour *c, const struct laminate *lam,
+                              const struct warping *w, struct couples *out)
+{
+    *out = (struct couples){{0}, {0}, {0}};
+    for (int i = 0; i < c->n_element; i++) {
+        const struct contour_element *el = &c->element[i];
+        const struct laminate *l = &lam[el->laminate];
+        for (int q = 0; q < CONTOUR_GAUSS; q++) {
+            const struct contour_point p = contour_at(el, contour_gauss_point[q]);
+            const double n_s = l->reduced[W_TWIST + WALL_STRAINS * W_GAMMA] /
+                               l->reduced[W_GAMMA + WALL_STRAINS * W_GAMMA];
+            const double weight = contour_gauss_weight[q] * p.jacobian;
+            double e[WALL_STRAINS * N], couple[CONSTRAINTS];
+            warping_strains(w, el, &p, e);
+            for (int j = 0; j < CONSTRAINTS; j++) {
+                const double *unit = e + WALL_STRAINS * (ptrdiff_t)constraint_source[j];
+                const double full = warping_flow(l->reduced, W_KAPPA, unit);
+                out->warping[j] += weight * full * p.r_t;
+                couple[j] = full - n_s * warping_flow(l->reduced, W_EPS, unit);
+            }
+            for (int j = 0; j < CONSTRAINTS; j++) {
+                out->shear[num_at(j, S_GXZ, CONSTRAINTS)] += weight * couple[j] * p.dy;
+                out->shear[num_at(j, S_GYZ, CONSTRAINTS)] -= weight * couple[j] * p.dx;
+                for (int k = 0; k < CONSTRAINTS; k++) {
+                    out->compliance[num_at(j, k, CONSTRAINTS)] +=
+                        weight * couple[j] * couple[k] / l->shear_zn;
+                }
+            }
+        }
+    }
 }
 
 static double dot(int n, const double *a, const double *b)
@@ -185,49 +225,57 @@ static void remove_mean(int n_node, const double *flow, double couple, double *g
     }
 }
 
-/* Retained set: g += constant - response lambda such that the work on the three flows is zero and
- * the forces lambda balance (they sum to none, or the held node would carry them). The flows depend
- * on each other where the walls have no extent in a direction (psi', phi' of a flat strip): the
- * solution of least size is taken. */
-static enum status constrain(const struct system *s, const double couple[CONSTRAINTS], double *g)
+/* Retained set, strain k: g += constant - response lambda such that warping does no work on the
+ * three axial flows and the forces lambda balance (they sum to none, or the held node would carry
+ * them).
+ *
+ * The normal of a wall may turn by beta(s) against the section, w = ... + n beta: gamma_nz + beta =
+ * -L lambda/K_zn minimises the energy, so a wall of a box hands the shear of its normal on to the
+ * walls that stand upright, and a lone strip, whose rotation is carried by L alone, keeps it. */
+static enum status constrain(const struct system *s, const struct couples *couples, int k,
+                             double *g, double lambda[CONSTRAINTS])
 {
     enum { UNKNOWN = CONSTRAINTS + 1 };
     const int n = s->n + 1;
-    double a[UNKNOWN * UNKNOWN] = {0}, b[UNKNOWN] = {0}, scale[UNKNOWN];
-    double energy = 0.0;
+    double a[UNKNOWN * UNKNOWN] = {0}, b[UNKNOWN] = {0}, scale[UNKNOWN], largest = 0.0;
     for (int i = 0; i < CONSTRAINTS; i++) {
         const double *flow = s->constraint + num_at(0, i, n);
         for (int j = 0; j < CONSTRAINTS; j++) {
-            a[num_at(i, j, UNKNOWN)] = -dot(n, flow, s->response + num_at(0, j, n));
+            a[num_at(i, j, UNKNOWN)] = -dot(n, flow, s->response + num_at(0, j, n)) -
+                                       couples->compliance[num_at(i, j, CONSTRAINTS)];
         }
-        for (int k = 0; k < n; k++) {
-            a[num_at(i, CONSTRAINTS, UNKNOWN)] += flow[k];
+        for (int q = 0; q < n; q++) {
+            a[num_at(i, CONSTRAINTS, UNKNOWN)] += flow[q];
         }
         a[num_at(CONSTRAINTS, i, UNKNOWN)] = a[num_at(i, CONSTRAINTS, UNKNOWN)];
-        b[i] = -dot(n, flow, g) - couple[i];
-        scale[i] = 1.0 / sqrt(fmax(dot(n, flow, flow), 1e-300));
-        energy = fmax(energy, -scale[i] * scale[i] * a[num_at(i, i, UNKNOWN)]);
+        b[i] = couples->shear[num_at(i, k, CONSTRAINTS)] - dot(n, flow, g) -
+               (k == S_THETA ? couples->warping[i] : 0.0);
+        scale[i] = 1.0 / sqrt(fmax(-a[num_at(i, i, UNKNOWN)], 1e-300));
+        largest = fmax(largest, scale[i] * fabs(a[num_at(i, CONSTRAINTS, UNKNOWN)]));
     }
-    /* Unit flows, and a constant of like weight, so that the rank can be told. */
-    scale[CONSTRAINTS] = energy / sqrt(n);
+    scale[CONSTRAINTS] = 1.0 / largest;
     for (int i = 0; i < UNKNOWN; i++) {
         b[i] *= scale[i];
         for (int j = 0; j < UNKNOWN; j++) {
             a[num_at(i, j, UNKNOWN)] *= scale[i] * scale[j];
         }
     }
-    const enum status st = la_solve_least_size(UNKNOWN, a, 1e-9, b);
-    for (int k = 0; k < n && st == ST_OK; k++) {
-        g[k] += scale[CONSTRAINTS] * b[CONSTRAINTS];
-        for (int j = 0; j < CONSTRAINTS; j++) {
-            g[k] -= s->response[num_at(k, j, n)] * scale[j] * b[j];
+    const enum status st = la_solve_least_size(UNKNOWN, a, 1e-10, b);
+    for (int j = 0; j < CONSTRAINTS && st == ST_OK; j++) {
+        lambda[j] = scale[j] * b[j];
+        const double *response = s->response + num_at(0, j, n);
+        for (int q = 0; q < n; q++) {
+            g[q] -= response[q] * lambda[j];
         }
+    }
+    for (int q = 0; q < n && st == ST_OK; q++) {
+        g[q] += scale[CONSTRAINTS] * b[CONSTRAINTS];
     }
     return st;
 }
 
-static enum status solve_classic(const struct contour *c, const struct laminate *lam,
-                                 const struct system *s, struct warping *w)
+static void solve_classic(const struct contour *c, const struct laminate *lam,
+                          const struct system *s, struct warping *w, struct couples *couples)
 {
     const int n = w->n_node;
     double *flow = s->constraint; /* scratch until the retained set is solved */
@@ -238,46 +286,60 @@ static enum status solve_classic(const struct contour *c, const struct laminate 
         }
     }
     memset(flow, 0, (size_t)n * sizeof *flow);
-    const double couple = axial_flow(c, lam, w, S_W, flow);
+    axial_flow(c, lam, w, S_W, flow);
+    integrate_couples(c, lam, w, couples);
     for (int k = 0; k < N; k++) {
         if (k != S_THETA2) {
-            remove_mean(n, flow, k == S_THETA ? couple : 0.0, w->g + num_at(0, k, n));
+            remove_mean(n, flow, k == S_THETA ? couples->warping[0] : 0.0, w->g + num_at(0, k, n));
         }
     }
-    add_load(c, lam, w->g + num_at(0, S_THETA, n), S_THETA2, w->g + num_at(0, S_THETA2, n));
-    solve_held(s, w->g + num_at(0, S_THETA2, n));
-    remove_mean(n, flow, 0.0, w->g + num_at(0, S_THETA2, n));
-    return ST_OK;
+    double *second = w->g + num_at(0, S_THETA2, n);
+    add_load(c, lam, w->g + num_at(0, S_THETA, n), S_THETA2, second);
+    solve_held(s, second);
+    remove_mean(n, flow, 0.0, second);
 }
 
 static enum status solve_retained(const struct contour *c, const struct laminate *lam,
-                                  const struct warping *classic, struct system *s,
-                                  struct warping *w)
+                                  const struct warping *classic, const struct couples *couples,
+                                  struct system *s, struct warping *w)
 {
-    static const int source[CONSTRAINTS] = {S_W, S_PSI, S_PHI};
-    static const double none[CONSTRAINTS] = {0.0};
     const int n = w->n_node;
-    double couple[CONSTRAINTS];
+    double lambda[CONSTRAINTS * N];
     memset(s->constraint, 0, (size_t)n * CONSTRAINTS * sizeof *s->constraint);
     for (int i = 0; i < CONSTRAINTS; i++) {
         double *flow = s->constraint + num_at(0, i, n), *response = s->response + num_at(0, i, n);
-        couple[i] = axial_flow(c, lam, classic, source[i], flow);
+        axial_flow(c, lam, classic, constraint_source[i], flow);
         memcpy(response, flow, (size_t)n * sizeof *flow);
         solve_held(s, response);
     }
     enum status st = ST_OK;
-    for (int k = 0; k < N && st == ST_OK; k++) {
-        double *g = w->g + num_at(0, k, n);
-        if (k != S_THETA2) { /* the unconstrained warping is that of the classic set */
-            memcpy(g, classic->g + num_at(0, k, n), (size_t)n * sizeof *g);
-            st = constrain(s, k == S_THETA ? couple : none, g);
+    for (int pass = 0; pass < 2; pass++) { /* theta'' needs the final warping of theta' */
+        for (int k = 0; k < N && st == ST_OK; k++) {
+            double *g = w->g + num_at(0, k, n);
+            if ((k == S_THETA2) != (pass == 1)) {
+                continue;
+            }
+            if (k == S_THETA2) {
+                add_load(c, lam, w->g + num_at(0, S_THETA, n), k, g);
+                solve_held(s, g);
+            } else { /* without the constraints it is the classic warping */
+                memcpy(g, classic->g + num_at(0, k, n), (size_t)n * sizeof *g);
+            }
+            st = constrain(s, couples, k, g, lambda + num_at(0, k, CONSTRAINTS));
         }
     }
-    if (st == ST_OK) {
-        double *g = w->g + num_at(0, S_THETA2, n);
-        add_load(c, lam, w->g + num_at(0, S_THETA, n), S_THETA2, g);
-        solve_held(s, g);
-        st = constrain(s, none, g);
+    for (int a = 0; a < N && st == ST_OK; a++) {
+        for (int b = 0; b < N; b++) {
+            double sum = 0.0;
+            for (int i = 0; i < CONSTRAINTS; i++) {
+                for (int j = 0; j < CONSTRAINTS; j++) {
+                    sum += lambda[num_at(i, a, CONSTRAINTS)] *
+                           couples->compliance[num_at(i, j, CONSTRAINTS)] *
+                           lambda[num_at(j, b, CONSTRAINTS)];
+                }
+            }
+            w->wall_shear[num_at(a, b, N)] = sum;
+        }
     }
     return st;
 }
@@ -323,10 +385,9 @@ enum status warping_solve(const struct contour *c, const struct laminate *lamina
         st = factor(c, laminate, &s);
     }
     if (st == ST_OK) {
-        st = solve_classic(c, laminate, &s, &a);
-    }
-    if (st == ST_OK) {
-        st = solve_retained(c, laminate, &a, &s, &b);
+        struct couples couples;
+        solve_classic(c, laminate, &s, &a, &couples);
+        st = solve_retained(c, laminate, &a, &couples, &s, &b);
     }
     free(s.factor);
     if (st != ST_OK) {

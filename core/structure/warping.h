@@ -19,6 +19,9 @@ enum wall_strain { W_EPS, W_GAMMA, W_KAPPA, W_TWIST }; /* order of laminate.redu
 struct warping {
     int n_node;
     double *g; /* g at the nodes per unit of each strain (n_node x SECTION_STRAIN_COUNT) */
+    /* Energy of the transverse shear gamma_nz of the walls per unit of each pair of strains; zero
+     * in the classic set. */
+    double wall_shear[SECTION_STRAIN_COUNT * SECTION_STRAIN_COUNT];
 };
 
 /* Both sets from one factorisation. ST_SINGULAR when a wall has no shear stiffness or the walls do
