@@ -1,0 +1,59 @@
+#include "tests/verify/built.h"
+
+#include "core/la.h"
+#include "core/num.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void require(enum status st, const char *what, const struct failure *fail)
+{
+    if (st != ST_OK) {
+        (void)fprintf(stderr, "%s: %s: %s\n", what, status_name(st),
+                      fail != NULL ? fail->detail : "");
+        exit(EXIT_FAILURE);
+    }
+}
+
+void built_model(const struct case_def *def, struct model *out)
+{
+    struct failure fail = {0};
+    require(model_build(def, out, &fail), def->name, &fail);
+}
+
+double built_frequency(const struct model *m, int share, int number)
+{
+    for (int j = 0; j < m->modes.n_mode; j++) {
+        const double *s = m->modes.share + (size_t)j * MODE_SHARES;
+        int largest = 0;
+        for (int f = 1; f < MODE_SHARES; f++) {
+            largest = s[f] > s[largest] ? f : largest;
+        }
+        if (largest == share && number-- == 0) {
+            return m->modes.omega[j] / (2.0 * NUM_PI);
+        }
+    }
+    return (double)NAN;
+}
+
+double *built_static(const struct model *m, const double *f)
+{
+    const size_t n = (size_t)m->beam.n_dof;
+    double *x = malloc(n * sizeof *x), *k = malloc(n * n * sizeof *k);
+    require(x != NULL && k != NULL ? ST_OK : ST_NO_MEMORY, "built_static", NULL);
+    memcpy(x, f, n * sizeof *x);
+    memcpy(k, m->beam.k, n * n * sizeof *k);
+    require(la_solve_symmetric(m->beam.n_dof, k, 1, x), "built_static", NULL);
+    free(k);
+    return x;
+}
+
+struct sim *built_run(const struct case_def *def)
+{
+    struct failure fail = {0};
+    struct sim *sim = NULL;
+    require(sim_create(def, &sim, &fail), "sim_create", &fail);
+    require(sim_run(sim, NULL, &fail), "sim_run", &fail);
+    return sim;
+}

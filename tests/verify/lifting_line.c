@@ -1,0 +1,185 @@
+/* Lifting line with a linear polar: lift slope against Glauert's series, with and without the far
+ * wall, spanwise distribution, independence of the start. */
+#include "core/aero/lifting_line.h"
+#include "core/num.h"
+#include "tests/support/fixture.h"
+#include "tests/verify/check.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { STATIONS_MAX = 256 };
+static const double angle = 0.05;
+static const char *const source = "[C], validation data 7.1";
+
+struct wing {
+    double length, chord; /* half span and chord */
+    enum wall_images walls;
+    double width;
+};
+
+/* c_l / alpha at the stations for uniform incidence; returns the mean, C_L / alpha. */
+static double lift_slope(const struct wing *g, int n, double *cl)
+{
+    struct polar_def def = fixture_linear_polar(2.0 * NUM_PI, 0.0, 0.0, 1.0);
+    struct polar *polar = NULL;
+    struct lifting_line ll;
+    struct lifting_line_state state;
+    double alpha[STATIONS_MAX], plunge[STATIONS_MAX] = {0};
+    assert(n <= STATIONS_MAX);
+    if (polar_create(&def, &polar) != ST_OK ||
+        lifting_line_init(n, g->length, g->chord, g->walls, g->width, 1e-12, 50, &ll) != ST_OK ||
+        lifting_line_state_init(n, &state) != ST_OK) {
+        abort();
+    }
+    for (int i = 0; i < n; i++) {
+        alpha[i] = angle;
+    }
+    const struct lifting_line_report r = lifting_line_solve(&ll, polar, alpha, plunge, &state);
+    double sum = r.converged ? 0.0 : (double)NAN;
+    for (int i = 0; i < n; i++) {
+        cl[i] = state.cl[i] / angle;
+        sum += cl[i];
+    }
+    lifting_line_state_done(&state);
+    lifting_line_done(&ll);
+    polar_destroy(polar);
+    polar_def_done(&def);
+    return sum / n;
+}
+
+/* The border of a uniform element stands off the root of the circulation at the tip: the error
+ * falls as 1/n. Limit of a + b/n + c/n^2 through n, 2n, 4n stations. */
+static double extrapolated(const struct wing *g, int n)
+{
+    double cl[STATIONS_MAX];
+    const double a = lift_slope(g, n, cl), b = lift_slope(g, 2 * n, cl);
+    const double c = lift_slope(g, 4 * n, cl);
+    const double ab = 2.0 * b - a, bc = 2.0 * c - b;
+    return (4.0 * bc - ab) / 3.0;
+}
+
+static void slopes(struct check_list *list)
+{
+    static const struct {
+        double ratio, slope;
+    } row[] = {{4.0, 4.0284}, {6.0, 4.5304},  {7.4, 4.7586},
+               {8.0, 4.8377}, {10.0, 5.0468}, {20.0, 5.5443}};
+    const struct wing paper = {0.37, 0.1, WALLS_ROOT, 0.0};
+    double cl[STATIONS_MAX];
+    check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&paper, 16, cl), 4.7586, 0.02, source,
+              "C_L alpha, AR 7.4, 16 uniform elements");
+    check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&paper, 64, cl), 4.7586, 0.006, source,
+              "C_L alpha, AR 7.4, 64 uniform elements");
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        const struct wing g = {0.5 * row[i].ratio, 1.0, WALLS_ROOT, 0.0};
+        check_add(list, CHECK_RELATIVE, "1/rad", extrapolated(&g, 64), row[i].slope, 0.001, source,
+                  "C_L alpha, AR %g, extrapolated from 64, 128, 256", row[i].ratio);
+    }
+    /* Half a wing with a mirror is the whole wing without: exactly, element by element. */
+    const struct wing whole = {0.74, 0.1, WALLS_NONE, 0.0};
+    const double half = lift_slope(&paper, 16, cl);
+    check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&whole, 32, cl), half, 1e-12, "property",
+              "C_L alpha of the whole wing, 32 elements, no mirror");
+}
+
+/* c_l / alpha at a share of the half span, linear between mid-points. */
+static double at_span(int n, const double *cl, double share)
+{
+    const double x = share * n - 0.5;
+    const int i = x < 0.0 ? 0 : (x > n - 2 ? n - 2 : (int)x);
+    return cl[i] + (x - i) * (cl[i + 1] - cl[i]);
+}
+
+/* The same for c_l / alpha at a place. */
+static double extrapolated_at(const struct wing *g, double share)
+{
+    double cl[STATIONS_MAX];
+    (void)lift_slope(g, STATIONS_MAX / 2, cl);
+    const double coarse = at_span(STATIONS_MAX / 2, cl, share);
+    (void)lift_slope(g, STATIONS_MAX, cl);
+    return 2.0 * at_span(STATIONS_MAX, cl, share) - coarse;
+}
+
+static void distribution(struct check_list *list)
+{
+    static const double share[] = {0.0, 0.25, 0.5, 0.75, 0.9, 0.95};
+    static const double expected[] = {5.380, 5.326, 5.126, 4.563, 3.572, 2.801};
+    const struct wing paper = {0.37, 0.1, WALLS_ROOT, 0.0};
+    for (size_t i = 0; i < sizeof share / sizeof share[0]; i++) {
+        check_add(list, CHECK_RELATIVE, "1/rad", extrapolated_at(&paper, share[i]), expected[i],
+                  0.003, source, "AR 7.4, extrapolated: c_l/alpha at 2y/b = %g", share[i]);
+    }
+}
+
+static void far_wall(struct check_list *list)
+{
+    const struct wing g = {0.37, 0.1, WALLS_ROOT_AND_FAR, 0.4};
+    double cl[STATIONS_MAX];
+    check_add(list, CHECK_RELATIVE, "1/rad", extrapolated(&g, 64), 5.357, 0.001, source,
+              "C_L alpha, far wall at 0.4 m, extrapolated");
+    check_add(list, CHECK_RELATIVE, "1/rad", extrapolated_at(&g, 0.5), 5.732, 0.003, source,
+              "far wall at 0.4 m: c_l/alpha at mid-span");
+    check_add(list, CHECK_RELATIVE, "1/rad", extrapolated_at(&g, 0.9), 4.239, 0.003, source,
+              "far wall at 0.4 m: c_l/alpha at 90 %%");
+    /* Both mirrors close on the wing: it becomes two-dimensional. */
+    const struct wing closed = {0.37, 0.1, WALLS_ROOT_AND_FAR, 0.37 * (1.0 + 1e-9)};
+    check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&closed, 16, cl), 2.0 * NUM_PI, 1e-6,
+              "property", "far wall at the tip: no induced angle");
+}
+
+/* The same incidence reached cold, and warm after three quite different incidences. */
+static void independence(struct check_list *list)
+{
+    enum { N = 16, STATES = 3 };
+    const double tolerance = 1e-11;
+    struct polar_def def = fixture_linear_polar(2.0 * NUM_PI, 0.0, 0.0, 1.0);
+    struct polar *polar = NULL;
+    struct lifting_line ll;
+    struct lifting_line_state cold, warm;
+    double alpha[N], other[N], plunge[N] = {0};
+    if (polar_create(&def, &polar) != ST_OK ||
+        lifting_line_init(N, 0.37, 0.1, WALLS_ROOT, 0.0, tolerance, 50, &ll) != ST_OK ||
+        lifting_line_state_init(N, &cold) != ST_OK || lifting_line_state_init(N, &warm) != ST_OK) {
+        abort();
+    }
+    uint64_t seed = 7;
+    for (int s = 0; s < STATES; s++) {
+        for (int i = 0; i < N; i++) {
+            alpha[i] = 0.05 + 0.01 * i;
+            other[i] = 0.6 * fixture_uniform(&seed) - 0.3;
+        }
+        (void)lifting_line_solve(&ll, polar, other, plunge, &warm);
+    }
+    const struct lifting_line_report a = lifting_line_solve(&ll, polar, alpha, plunge, &cold);
+    const struct lifting_line_report b = lifting_line_solve(&ll, polar, alpha, plunge, &warm);
+    double largest = a.converged && b.converged ? 0.0 : (double)NAN;
+    for (int i = 0; i < N; i++) {
+        largest = fmax(largest, fabs(cold.cl[i] - warm.cl[i]));
+    }
+    check_add(list, CHECK_AT_MOST, "", largest, 0.0, 1e-9, "property",
+              "linear polar: c_l from a cold start less c_l from another state");
+    lifting_line_state_done(&warm);
+    lifting_line_state_done(&cold);
+    lifting_line_done(&ll);
+    polar_destroy(polar);
+    polar_def_done(&def);
+}
+
+static void fill(struct check_list *list)
+{
+    slopes(list);
+    distribution(list);
+    far_wall(list);
+    independence(list);
+}
+
+const struct check_group group_lifting_line = {
+    .name = "lifting_line",
+    .title = "Lifting line",
+    .text = "Rectangular wing, section slope 2 pi, half of it behind a mirror at the root. The "
+            "reference is Glauert's series with 200 terms; uniform elements approach it as 1/n, so "
+            "the limit is extrapolated.",
+    .fill = fill,
+};
