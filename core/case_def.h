@@ -10,12 +10,11 @@
 #include "core/aero/network.h"
 #include "core/aero/polar.h"
 #include "core/structure/beam.h"
+#include "core/structure/shape.h"
 
 #include <stdbool.h>
 
 enum case_kind { CASE_SIMULATION, CASE_MODES, CASE_SECTION };
-enum section_type { SECTION_STRIP };
-enum shear_model { SHEAR_CONDENSED };
 enum dynamic_type { DYNAMIC_NONE, DYNAMIC_NETWORK };
 enum integrator { INTEGRATOR_EXPONENTIAL, INTEGRATOR_RK4_ADAPTIVE };
 enum start_type { START_REST, START_EQUILIBRIUM, START_AMPLITUDES };

@@ -7,6 +7,11 @@ enum {
     LIMIT_NAME = 64,              /* bytes of a name with its terminating zero */
     LIMIT_HASH = 65,              /* 256 bits in hexadecimal with its terminating zero */
     LIMIT_PLIES = 64,             /* plies of one laminate */
+    LIMIT_LAYUPS = 8,             /* layups of one section */
+    LIMIT_POINTS = 64,            /* points of a contour section */
+    LIMIT_WALLS = 64,             /* walls of a contour section */
+    LIMIT_STATIONS = 12,          /* spanwise stations of a beam */
+    LIMIT_MASSES = 16,            /* lumped masses of a beam */
     LIMIT_ELEMENTS = 256,         /* beam elements = aerodynamic stations */
     LIMIT_MODES = 64,             /* modes kept */
     LIMIT_CONTOUR_ELEMENTS = 256, /* elements along the wall contour of a section */

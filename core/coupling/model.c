@@ -29,7 +29,17 @@ static enum status build_section(struct model *m)
 static enum status build_beam(struct model *m)
 {
     const struct beam_def *b = &m->def.beam;
-    enum status st = beam_build(&m->section, b->length, b->elements, b->root_warping, &m->beam);
+    struct beam_mesh mesh = {0};
+    enum status st = beam_mesh_build(b->length, b->elements, 0, NULL, &mesh);
+    if (st == ST_OK) {
+        const struct beam_spec spec = {.mesh = &mesh,
+                                       .section = &m->section,
+                                       .uniform = true,
+                                       .shear = b->section.shear,
+                                       .root = b->root_warping};
+        st = beam_build(&spec, &m->beam);
+    }
+    beam_mesh_done(&mesh);
     if (st == ST_OK) {
         st = modes_solve(&m->beam, b->section.chord, m->def.solver.modes, &m->modes);
     }

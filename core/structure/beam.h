@@ -1,31 +1,75 @@
 /* core/structure/beam.h
- * Finite elements of the thin-walled beam: stiffness and mass of the clamped cantilever.
+ * Finite elements of the thin-walled beam: stiffness and mass of the cantilever, any variation of
+ * the section along the span, lumped masses.
  *
- * Seven freedoms a node, in this order: w, u, u', v, v', theta, theta'. Cubic Hermite for u, v and
- * theta. DEVIATION: w is linear plus two internal modes condensed in the element; linear alone
- * cannot follow the axial strain that bending of a one-sided laminate asks for (N = 0) and locks.
- * The struct owns its arrays; beam_done accepts a zeroed struct. Immutable after beam_build. */
+ * Seven freedoms a node, in this order: w, u, psi, v, -phi, theta, theta'. With condensed shear psi
+ * is u' and -phi is v'. Cubic Hermite for u, v and theta. DEVIATION: w is linear plus two internal
+ * modes condensed in the element; linear alone cannot follow the axial strain that bending of a
+ * one-sided laminate asks for (N = 0) and locks. With retained shear each element also has linear
+ * shear strains inside, condensed as well. A struct beam owns its arrays; beam_done accepts a
+ * zeroed struct. Immutable after beam_build. */
 #ifndef AEROM_CORE_STRUCTURE_BEAM_H
 #define AEROM_CORE_STRUCTURE_BEAM_H
 
 #include "core/structure/section.h"
 
-enum beam_freedom { D_W, D_U, D_DU, D_V, D_DV, D_THETA, D_DTHETA, BEAM_NODE_FREEDOMS };
+#include <stdbool.h>
 
-/* The clamp holds w, u, u', v, v', theta; it may or may not hold the warping, theta'. */
-enum root_warping { ROOT_WARPING_RESTRAINED, ROOT_WARPING_FREE };
+enum beam_freedom { D_W, D_U, D_DU, D_V, D_DV, D_THETA, D_DTHETA, BEAM_NODE_FREEDOMS };
+enum { BEAM_GAUSS = 4 }; /* points of an element at which its section is asked for */
+
+/* Are the transverse shears condensed (zero shear force strain energy) or kept (Timoshenko)? */
+enum shear_model { SHEAR_CONDENSED, SHEAR_RETAINED };
+/* The clamp holds w, u, psi, v, phi, theta; it may or may not hold the warping, theta'. A free root
+ * holds nothing (rigid-body tests). */
+enum root_warping { ROOT_WARPING_RESTRAINED, ROOT_WARPING_FREE, ROOT_FREE };
+
+struct beam_mass {
+    double z, x, y;    /* position of its centre [m] */
+    double mass;       /* [kg] */
+    double inertia[3]; /* about its own centre, axes x, y, z [kg m^2] */
+};
+
+struct beam_mesh {
+    int n_element;
+    double *z; /* nodes, ascending, root first (n_element + 1), owned */
+};
+
+/* n_uniform equal elements over the length plus nodes at the extra positions (jumps of the section,
+ * lumped masses); positions closer than a millionth of the length to a node are not repeated. */
+MUST_CHECK enum status beam_mesh_build(double length, int n_uniform, int n_extra,
+                                       const double *extra, struct beam_mesh *out);
+void beam_mesh_done(struct beam_mesh *m);
+/* Spanwise position of Gauss point g of element e. */
+double beam_mesh_gauss(const struct beam_mesh *m, int e, int g);
+
+struct beam_spec {
+    const struct beam_mesh *mesh;
+    /* One section for the whole beam, or one for each Gauss point (BEAM_GAUSS x n_element). */
+    const struct section *section;
+    bool uniform;
+    enum shear_model shear;
+    enum root_warping root;
+    int n_mass;
+    const struct beam_mass *mass; /* each at a node of the mesh */
+};
+
+enum { BEAM_OUTER = 2 * BEAM_NODE_FREEDOMS, BEAM_INNER = 6 };
 
 struct beam {
     double length; /* [m] */
-    int n_element; /* equal lengths, root first */
-    int n_dof;     /* free ones: BEAM_NODE_FREEDOMS x n_element; a free root warping comes last */
-    enum root_warping root_warping;
-    double *k; /* stiffness (n_dof x n_dof) */
-    double *m; /* mass      (n_dof x n_dof) */
+    struct beam_mesh mesh;
+    enum shear_model shear;
+    enum root_warping root;
+    int n_dof;       /* free ones; a free root warping or root comes last */
+    double *k;       /* stiffness (n_dof x n_dof) */
+    double *m;       /* mass      (n_dof x n_dof) */
+    double *inertia; /* inertial load of unit accelerations along x, y, z (n_dof x 3) */
+    double *inner;   /* internal modes of each element per unit of its node freedoms
+                        (BEAM_INNER x BEAM_OUTER x n_element) */
 };
 
-MUST_CHECK enum status beam_build(const struct section *section, double length, int n_element,
-                                  enum root_warping root_warping, struct beam *out);
+MUST_CHECK enum status beam_build(const struct beam_spec *spec, struct beam *out);
 void beam_done(struct beam *b);
 
 /* Index of a node's freedom (node 0 is the root) in the freedom vector, -1 where it is clamped. */
@@ -33,16 +77,28 @@ int beam_index(const struct beam *b, int node, enum beam_freedom freedom);
 /* The kind of freedom at an index. */
 enum beam_freedom beam_freedom_at(const struct beam *b, int index);
 
-/* Displacements (u, v, theta) at spanwise position z in [0, length] of a freedom vector x (n_dof).
- */
+/* Motion of the section at z in [0, length] for a freedom vector x (n_dof). */
 struct beam_motion {
-    double u, v, theta;
+    double u, v, w;         /* [m] */
+    double psi, phi, theta; /* rotations about y, x, z [rad]; phi = -v' without shear */
+    double theta_rate;      /* theta' [rad/m] */
 };
 struct beam_motion beam_motion_at(const struct beam *b, const double *x, double z);
 
-/* Consistent load vector f (n_dof), added to, of a load uniform over element e: force per length
- * along x and y [N/m] and moment per length about z [N]. */
-void beam_add_uniform_load(const struct beam *b, int e, double fx, double fy, double moment,
-                           double *f);
+/* Strains of the section at z (order of enum section_strain); the shears are zero when condensed.
+ */
+void beam_strain_at(const struct beam *b, const double *x, double z,
+                    double strain[SECTION_STRAIN_COUNT]);
+
+/* A force along x, y, z [N] and a moment about x, y, z [N m], or both per length. */
+struct beam_load {
+    double force[3];
+    double moment[3];
+};
+/* Adds the consistent load of a point load at z to f (n_dof). */
+void beam_add_point_load(const struct beam *b, double z, const struct beam_load *load, double *f);
+/* Adds the consistent load of a load per length, constant from z0 to z1. */
+void beam_add_line_load(const struct beam *b, double z0, double z1, const struct beam_load *load,
+                        double *f);
 
 #endif

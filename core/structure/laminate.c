@@ -165,6 +165,12 @@ static void add_ply(struct laminate *lam, const struct ply *ply, double lower)
 enum status laminate_build(int n_ply, const struct ply *ply, enum chordwise_curvature chordwise,
                            struct laminate *out)
 {
+    return laminate_build_at(n_ply, ply, 0.0, chordwise, out);
+}
+
+enum status laminate_build_at(int n_ply, const struct ply *ply, double offset,
+                              enum chordwise_curvature chordwise, struct laminate *out)
+{
     assert(n_ply >= 1);
     assert(n_ply <= LIMIT_PLIES);
     struct laminate lam = {0};
@@ -177,7 +183,7 @@ enum status laminate_build(int n_ply, const struct ply *ply, enum chordwise_curv
         }
         lam.thickness += ply[i].thickness;
     }
-    double lower = -0.5 * lam.thickness;
+    double lower = offset - 0.5 * lam.thickness;
     for (int i = 0; i < n_ply; i++) {
         add_ply(&lam, &ply[i], lower);
         lower += ply[i].thickness;

@@ -46,4 +46,8 @@ struct laminate {
 MUST_CHECK enum status laminate_build(int n_ply, const struct ply *ply,
                                       enum chordwise_curvature chordwise, struct laminate *out);
 
+/* The same with the middle of the ply stack at n = offset [m]. */
+MUST_CHECK enum status laminate_build_at(int n_ply, const struct ply *ply, double offset,
+                                         enum chordwise_curvature chordwise, struct laminate *out);
+
 #endif

@@ -87,6 +87,7 @@ enum status section_build(const struct contour *c, const struct laminate *lamina
     integrate_stiffness(c, laminate, &classic, SECTION_CLASSIC, s.classic);
     integrate_stiffness(c, laminate, &retained, N, s.stiffness);
     integrate_mass(c, laminate, &classic, s.mass);
+    integrate_mass(c, laminate, &retained, s.mass_retained);
     if (!num_all_finite(SECTION_CLASSIC * SECTION_CLASSIC, s.classic) ||
         !num_all_finite(N * N, s.stiffness)) {
         st = ST_NOT_FINITE;

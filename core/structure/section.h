@@ -20,6 +20,8 @@ struct section {
         stiffness[SECTION_STRAIN_COUNT * SECTION_STRAIN_COUNT]; /* column-major, retained shear */
     double classic[SECTION_CLASSIC * SECTION_CLASSIC];          /* shear forces zero */
     double mass[SECTION_MOTION_COUNT * SECTION_MOTION_COUNT];   /* (A.35), order of U there */
+    /* The same with v', u' read as -phi, psi. */
+    double mass_retained[SECTION_MOTION_COUNT * SECTION_MOTION_COUNT];
 };
 
 /* Integrates the walls. laminate[] is indexed by contour_element.laminate. */

@@ -1,0 +1,31 @@
+/* core/structure/beam_element.h
+ * One element of the beam: rows that turn its freedoms into strains and motions, and its condensed
+ * matrices. For core/structure/beam.c and its recovery only. */
+#ifndef AEROM_CORE_STRUCTURE_BEAM_ELEMENT_H
+#define AEROM_CORE_STRUCTURE_BEAM_ELEMENT_H
+
+#include "core/structure/beam.h"
+
+enum { ELEMENT_ALL = BEAM_OUTER + BEAM_INNER };
+
+/* Internal freedoms: two modes of w, then constant and linear part of gamma_xz and gamma_yz. */
+enum beam_inner { IN_W_EVEN, IN_W_ODD, IN_GX_MEAN, IN_GX_SLOPE, IN_GY_MEAN, IN_GY_SLOPE };
+
+/* Rows at t in [0, 1] of an element of length h, all freedoms: node 1, node 2, inner. */
+struct element_rows {
+    double strain[SECTION_STRAIN_COUNT * ELEMENT_ALL];
+    double motion[SECTION_MOTION_COUNT * ELEMENT_ALL];
+};
+void element_rows(double t, double h, struct element_rows *out);
+
+/* Stiffness, mass (BEAM_OUTER x BEAM_OUTER) and the recovery of the internal freedoms
+ * (BEAM_INNER x BEAM_OUTER) of an element with one section a Gauss point. */
+struct element {
+    double k[BEAM_OUTER * BEAM_OUTER];
+    double m[BEAM_OUTER * BEAM_OUTER];
+    double inner[BEAM_INNER * BEAM_OUTER];
+};
+MUST_CHECK enum status element_build(const struct section *const section[BEAM_GAUSS], double h,
+                                     enum shear_model shear, struct element *out);
+
+#endif
