@@ -160,7 +160,9 @@ static bool read_file(struct config *c, const char *path, char why[CONFIG_MESSAG
 {
     FILE *file = fopen(path, "r");
     if (file == NULL) {
-        (void)snprintf(why, CONFIG_MESSAGE, "%.200s: %s", path, strerror(errno));
+        char reason[128] = "";
+        (void)strerror_r(errno, reason, sizeof reason);
+        (void)snprintf(why, CONFIG_MESSAGE, "%.200s: %s", path, reason);
         return false;
     }
     struct file_read read = {.config = c, .file = file, .path = path, .why = why};
@@ -311,7 +313,9 @@ void config_help(FILE *file)
         char flag[64];
         (void)snprintf(flag, sizeof flag, "%s", keys[i].name);
         for (char *p = flag; *p != '\0'; p++) {
-            *p = *p == '_' ? '-' : *p;
+            if (*p == '_') {
+                *p = '-';
+            }
         }
         (void)fprintf(
             file, "  --%-18s %s%s%s%s\n", flag, keys[i].help, keys[i].fallback != NULL ? " [" : "",

@@ -100,11 +100,11 @@ static bool make_documents(struct run_outcome *out, const struct api_case *c,
     const char *const *name = result_documents(api_case_def(c)->kind);
     for (int i = 0; name[i] != NULL; i++) {
         assert(i < RUN_DOCUMENTS_MAX);
-        const char *json = result_document(name[i], c, r, timing);
-        if (json == NULL) {
+        out->text[i] = result_document(name[i], c, r, timing);
+        if (out->text[i] == NULL) {
             return false;
         }
-        out->document[i] = (struct store_document){.name = name[i], .json = json};
+        out->document[i] = (struct store_document){.name = name[i], .json = out->text[i]};
         out->result.n_document = i + 1;
     }
     return true;
@@ -176,7 +176,7 @@ void runner_run(const struct library *lib, const char *case_json, const struct s
 void run_outcome_done(struct run_outcome *out)
 {
     for (int i = 0; i < out->result.n_document; i++) {
-        free((void *)(uintptr_t)out->document[i].json);
+        free(out->text[i]);
     }
     const size_t n_chunk = (size_t)out->series.n_column * (size_t)series_chunks(out->series.n);
     for (size_t i = 0; out->block != NULL && i < n_chunk; i++) {

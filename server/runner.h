@@ -25,6 +25,7 @@ struct run_outcome {
     /* What RUN_DONE publishes; its pointers lead to the members below. */
     struct store_result result;
     struct store_document document[RUN_DOCUMENTS_MAX];
+    char *text[RUN_DOCUMENTS_MAX]; /* owned: the JSON of each document */
     struct store_series series;
     struct store_column *column; /* owned, as are the next two */
     struct series_chunk *chunk;  /* all columns, column by column */

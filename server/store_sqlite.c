@@ -175,6 +175,13 @@ static enum store_status schema_apply(void *ctx, const struct migration *m)
 
 /* -- the lock file ---------------------------------------------------------------------- */
 
+static void refuse(char why[STORE_MESSAGE], const char *path, int error)
+{
+    char reason[128] = "";
+    (void)strerror_r(error, reason, sizeof reason);
+    (void)snprintf(why, STORE_MESSAGE, "%.300s: %s", path, reason);
+}
+
 /* The kernel drops the lock with the process, however it ends. */
 static enum store_status lock_take(const char *path, int *fd_out, char why[STORE_MESSAGE])
 {
@@ -182,7 +189,7 @@ static enum store_status lock_take(const char *path, int *fd_out, char why[STORE
     (void)snprintf(name, sizeof name, "%s.lock", path);
     const int fd = open(name, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (fd < 0) {
-        (void)snprintf(why, STORE_MESSAGE, "%.300s: %s", name, strerror(errno));
+        refuse(why, name, errno);
         return STORE_REFUSED;
     }
     if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
@@ -198,7 +205,7 @@ static enum store_status lock_take(const char *path, int *fd_out, char why[STORE
     char pid[32];
     const int n = snprintf(pid, sizeof pid, "%ld\n", (long)getpid());
     if (ftruncate(fd, 0) != 0 || write(fd, pid, (size_t)n) != n) {
-        (void)snprintf(why, STORE_MESSAGE, "%.300s: %s", name, strerror(errno));
+        refuse(why, name, errno);
         (void)close(fd);
         return STORE_FULL;
     }
@@ -214,7 +221,7 @@ static enum store_status make_directory(const char *path, char why[STORE_MESSAGE
     for (char *p = strchr(part + 1, '/'); p != NULL; p = strchr(p + 1, '/')) {
         *p = '\0';
         if (mkdir(part, 0700) != 0 && errno != EEXIST) {
-            (void)snprintf(why, STORE_MESSAGE, "%.300s: %s", part, strerror(errno));
+            refuse(why, part, errno);
             return STORE_REFUSED;
         }
         *p = '/';

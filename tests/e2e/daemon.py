@@ -17,13 +17,14 @@ SANITIZER = re.compile(r"(WARNING: ThreadSanitizer|ERROR: (Address|Leak)Sanitize
 class Daemon:
     """One process on port 0; `log` collects what it writes to stderr."""
 
-    def __init__(self, directory, *flags, env=None):
+    def __init__(self, directory, *flags, env=None, limit=None):
         self.log_path = os.path.join(directory, f"log-{time.monotonic_ns()}")
         self.store = os.path.join(directory, "a.db")
         command = [AEROMD, "--listen", "127.0.0.1:0", "--store", "sqlite:" + self.store,
                    "--disk-reserve-mb", "1", *flags]
         with open(self.log_path, "wb") as log:
-            self.process = subprocess.Popen(command, stderr=log, env={**os.environ, **(env or {})})
+            self.process = subprocess.Popen(command, stderr=log, preexec_fn=limit,
+                                            env={**os.environ, **(env or {})})
         self.port = None
 
     def log(self):
@@ -93,8 +94,8 @@ class DaemonTest(unittest.TestCase):
         self.directory = tempfile.mkdtemp(prefix="aerom-e2e-")
         self.daemons = []
 
-    def start(self, *flags, env=None):
-        daemon = Daemon(self.directory, *flags, env=env)
+    def start(self, *flags, **options):
+        daemon = Daemon(self.directory, *flags, **options)
         self.daemons.append(daemon)
         return daemon
 

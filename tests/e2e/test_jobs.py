@@ -1,5 +1,6 @@
 """The life of jobs over HTTP."""
 import json
+import resource
 import signal
 import sqlite3
 import threading
@@ -164,6 +165,27 @@ class Jobs(DaemonTest):
         self.assertIn("Retry-After", headers)
         self.assertEqual(d.request("GET", "/readyz")[0], 503)
         self.assertEqual(d.request("GET", "/healthz")[0], 200)
+
+    def test_files_that_cannot_grow(self):
+        """Writes fail while the process lives: refused with 5xx, nothing acknowledged is lost."""
+        size = 4 << 20
+        d = self.start("--workers", "0", limit=lambda: resource.setrlimit(
+            resource.RLIMIT_FSIZE, (size, size))).wait_ready()
+        accepted, status = [], 202
+        while status == 202 and len(accepted) < 2000:
+            status, _, body = d.request("POST", "/v1/jobs", simulation(1 + 0.01 * len(accepted)))
+            if status == 202:
+                accepted.append(body["id"])
+        self.assertIn(status, (500, 503, 507))
+        self.assertGreater(len(accepted), 5)
+        self.assertEqual(d.request("GET", "/healthz")[0], 200)
+        self.assertEqual(d.request("GET", "/v1/jobs/" + accepted[-1])[0], 200)
+        d.stop()
+        d = self.start("--workers", "0").wait_ready()
+        for job in accepted:
+            self.assertEqual(d.request("GET", "/v1/jobs/" + job)[0], 200)
+        self.assertEqual(len(d.request("GET", "/v1/jobs?limit=1000")[2]["jobs"]), len(accepted))
+        self.assertEqual(d.request("POST", "/v1/jobs", simulation(99))[0], 202)
 
     def test_many_clients(self):
         d = self.start().wait_ready()
