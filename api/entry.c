@@ -18,7 +18,7 @@ static void *add(struct reader *r, void **array, int *n, size_t size)
     }
     void *grown = realloc(*array, ((size_t)*n + 1) * size);
     if (grown == NULL) {
-        reader_problem(r, "no_memory", NULL, NULL, "%s", status_text(ST_NO_MEMORY));
+        reader_no_memory(r);
         return NULL;
     }
     *array = grown;
@@ -51,13 +51,16 @@ static bool read_members(struct reader *r, const struct field *fields, const str
 }
 
 /* Content hash of the members that are numbers the result depends on. */
-static bool hash_table(const struct field *fields, const void *base, char hash[LIMIT_HASH])
+static bool hash_table(struct reader *r, const struct field *fields, const void *base,
+                       char hash[LIMIT_HASH])
 {
     struct json_out out = {0};
     field_write(&out, fields, ENTRY_TABLE, base);
     const bool ok = !out.failed;
     if (ok) {
         hash_text(out.text, out.size, hash);
+    } else {
+        reader_no_memory(r);
     }
     json_out_done(&out);
     return ok;
@@ -88,12 +91,16 @@ bool entry_read_polar(struct reader *r, const struct cJSON *json, struct entry_s
     e->def.plunge = calloc(1, sizeof *e->def.plunge);
     e->def.n_plunge = e->def.plunge != NULL ? 1 : 0;
     const int before = r->problems->total;
-    if (e->def.plunge == NULL || !read_members(r, polar_fields, json, e)) {
+    if (e->def.plunge == NULL) {
+        reader_no_memory(r);
+        return false;
+    }
+    if (!read_members(r, polar_fields, json, e)) {
         return false;
     }
     polar_def_check(&e->def, r->pointer, r->problems);
     return unique(r, entry_polar(set, e->def.name) != e) && r->problems->total == before &&
-           hash_table(polar_fields, e, e->def.hash);
+           hash_table(r, polar_fields, e, e->def.hash);
 }
 
 bool entry_read_network(struct reader *r, const struct cJSON *json, struct entry_set *set)
@@ -107,7 +114,7 @@ bool entry_read_network(struct reader *r, const struct cJSON *json, struct entry
     }
     network_def_check(&e->def, r->pointer, r->problems);
     return unique(r, entry_network(set, e->def.name) != e) && r->problems->total == before &&
-           hash_table(network_fields, e, e->def.hash);
+           hash_table(r, network_fields, e, e->def.hash);
 }
 
 bool entry_read_list(struct reader *r, const struct cJSON *json, struct entry_set *set,

@@ -19,7 +19,7 @@ static void read_note(struct reader *r, const struct cJSON *json, char **note)
     free(*note);
     *note = json_out_take(&out, NULL);
     if (*note == NULL) {
-        reader_problem(r, "no_memory", NULL, NULL, "%s", status_text(ST_NO_MEMORY));
+        reader_no_memory(r);
     }
 }
 

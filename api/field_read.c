@@ -162,7 +162,7 @@ static double *allocate(struct reader *r, int n)
 {
     double *block = calloc(n > 0 ? (size_t)n : 1, sizeof *block);
     if (block == NULL) {
-        reader_problem(r, "no_memory", NULL, NULL, "%s", status_text(ST_NO_MEMORY));
+        reader_no_memory(r);
     }
     return block;
 }

@@ -35,15 +35,18 @@ static void refuse_parameter(struct failure_list *errors, const char *key, const
                 "the parameter \"%s\" must be %s", key, expected);
 }
 
-/* Cuts "a,b" at its commas; an empty name is refused. */
-static void read_channels(const char *list, struct series_query *q, struct failure_list *errors)
+/* Cuts "a,b" at its commas; an empty name is refused. False when out of memory. */
+static bool read_channels(const char *list, struct series_query *q, struct failure_list *errors)
 {
     if (list == NULL) {
-        return;
+        return true;
     }
     q->names = strdup(list);
+    if (q->names == NULL) {
+        return false;
+    }
     char *name = q->names;
-    bool ok = name != NULL;
+    bool ok = true;
     while (ok && name != NULL) {
         char *comma = strchr(name, ',');
         if (comma != NULL) {
@@ -59,6 +62,7 @@ static void read_channels(const char *list, struct series_query *q, struct failu
         refuse_parameter(errors, "channels", list[0] == '\0' ? "empty_list" : "out_of_range",
                          "names with commas between them", list);
     }
+    return true;
 }
 
 static double read_number(const struct api_request *req, const char *key, double value,
@@ -71,14 +75,17 @@ static double read_number(const struct api_request *req, const char *key, double
     return value;
 }
 
-static void read_query(const struct api_request *req, struct series_query *q,
+/* False when out of memory; what is wrong goes to the list. */
+static bool read_query(const struct api_request *req, struct series_query *q,
                        struct failure_list *errors)
 {
     const char *format = api_query_get(req, "format");
     const char *points = api_query_get(req, "points");
     q->n_channel = 0;
     q->names = NULL;
-    read_channels(api_query_get(req, "channels"), q, errors);
+    if (!read_channels(api_query_get(req, "channels"), q, errors)) {
+        return false;
+    }
     q->from = read_number(req, "from_s", (double)-INFINITY, errors);
     q->to = read_number(req, "to_s", (double)INFINITY, errors);
     if (q->from > q->to) {
@@ -98,6 +105,7 @@ static void read_query(const struct api_request *req, struct series_query *q,
     if (format != NULL && !q->csv && strcmp(format, "json") != 0) {
         refuse_parameter(errors, "format", "unknown_value", "json or csv", format);
     }
+    return true;
 }
 
 /* An unknown channel: the answer lists what was recorded. */
@@ -119,7 +127,8 @@ static void refuse_channel(const struct api_call *call, struct api_response *res
     char got[96];
     (void)snprintf(got, sizeof got, "\"%.80s\"", name);
     failure_set(failure_add(errors), ST_INVALID, "?channels", "unknown_channel",
-                "a recorded channel", got, "not recorded; recorded are: %s", expected);
+                "a recorded channel", got, "%s is not recorded; recorded are: %.120s", got,
+                expected);
     problem_response(res, PROBLEM_BAD_QUERY, errors->item[0].detail, errors, NULL);
 }
 
@@ -184,15 +193,14 @@ void handle_series(const struct api_call *call, struct api_response *res)
     }
     struct failure_list *errors = calloc(1, sizeof *errors);
     struct series_query *query = calloc(1, sizeof *query);
-    if (errors == NULL || query == NULL) {
+    if (errors == NULL || query == NULL || !read_query(call->req, query, errors)) {
         problem_response(res, PROBLEM_INTERNAL, status_text(ST_NO_MEMORY), NULL, NULL);
+    } else if (errors->total > 0) {
+        problem_response(res, PROBLEM_BAD_QUERY, errors->item[0].detail, errors, NULL);
     } else {
-        read_query(call->req, query, errors);
-        if (errors->total > 0) {
-            problem_response(res, PROBLEM_BAD_QUERY, errors->item[0].detail, errors, NULL);
-        } else {
-            answer(call, res, &job, query, errors);
-        }
+        answer(call, res, &job, query, errors);
+    }
+    if (query != NULL) {
         free(query->names);
     }
     free(query);

@@ -214,6 +214,8 @@ void handle_submit(const struct api_call *call, struct api_response *res)
     if (!s->batch && req->body_size > CASE_BODY_MAX) {
         problem_response(res, PROBLEM_TOO_LARGE, "one case may have 1 MiB; a batch 16 MiB", NULL,
                          NULL);
+    } else if (reader_ran_out_of_memory(problems)) {
+        goto no_memory;
     } else if (problems->total > 0) {
         refuse(res, PROBLEM_INVALID_CASE, problems);
     } else {

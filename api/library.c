@@ -20,12 +20,16 @@ static bool is_under(const char *path, const char *folder)
 }
 
 /* The provenance of a file of materials is that of each of them. */
-static void keep_provenance(struct entry_set *set, int first, const struct cJSON *note)
+static void keep_provenance(struct reader *r, struct entry_set *set, int first,
+                            const struct cJSON *note)
 {
     for (int i = first; note != NULL && i < set->n_material; i++) {
         struct json_out out = {0};
         json_value(&out, note);
         set->material[i].provenance = json_out_take(&out, NULL);
+        if (set->material[i].provenance == NULL) {
+            reader_no_memory(r);
+        }
     }
 }
 
@@ -42,7 +46,7 @@ static void read_material_file(struct reader *r, const struct cJSON *json, struc
         }
         reader_leave(r, mark);
     }
-    keep_provenance(set, first, cJSON_GetObjectItemCaseSensitive(json, "provenance"));
+    keep_provenance(r, set, first, cJSON_GetObjectItemCaseSensitive(json, "provenance"));
 }
 
 static enum status read_file(struct entry_set *set, const struct embedded_file *file,

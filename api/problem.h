@@ -9,6 +9,8 @@
 /* X(code, name on the wire, HTTP status, title) */
 #define PROBLEM_LIST(X)                                                                            \
     X(PROBLEM_MALFORMED_JSON, "malformed_json", 400, "The body is not JSON")                       \
+    X(PROBLEM_BAD_FRAMING, "bad_framing", 400, "The HTTP message is ambiguous")                    \
+    X(PROBLEM_BAD_TARGET, "bad_target", 400, "The query is not properly encoded")                  \
     X(PROBLEM_BAD_PATH, "bad_path", 400, "The path is not properly encoded")                       \
     X(PROBLEM_BAD_QUERY, "bad_query", 400, "A query parameter is not admissible")                  \
     X(PROBLEM_UNKNOWN_PATH, "unknown_path", 404, "There is no such resource")                      \
@@ -17,7 +19,7 @@
     X(PROBLEM_UNKNOWN_NAME, "unknown_name", 404, "The library has no entry of this name")          \
     X(PROBLEM_METHOD, "method_not_allowed", 405, "The resource does not answer this method")       \
     X(PROBLEM_NOT_READY, "not_ready", 409, "The job has no result")                                \
-    X(PROBLEM_TOO_LARGE, "too_large", 413, "The body is too large")                                \
+    X(PROBLEM_TOO_LARGE, "body_too_large", 413, "The body is too large")                           \
     X(PROBLEM_MEDIA_TYPE, "unsupported_media_type", 415, "The body must be application/json")      \
     X(PROBLEM_INVALID_CASE, "invalid_case", 422, "The case is not admissible")                     \
     X(PROBLEM_INTERNAL, "internal", 500, "The server failed")                                      \

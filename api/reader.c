@@ -68,6 +68,22 @@ void reader_problem(struct reader *r, const char *code, const char *expected,
                 text);
 }
 
+void reader_no_memory(struct reader *r)
+{
+    failure_set(failure_add(r->problems), ST_NO_MEMORY, r->pointer, status_name(ST_NO_MEMORY), NULL,
+                NULL, "%s", status_text(ST_NO_MEMORY));
+}
+
+bool reader_ran_out_of_memory(const struct failure_list *problems)
+{
+    for (int i = 0; i < problems->count; i++) {
+        if (problems->item[i].status == ST_NO_MEMORY) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void reader_join(const char *const *names, size_t size, char *out)
 {
     static const char more[] = ", ...";

@@ -6,6 +6,7 @@
 
 #include "core/status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 struct cJSON;
@@ -34,6 +35,11 @@ void reader_leave(struct reader *r, size_t mark);
 void reader_problem(struct reader *r, const char *code, const char *expected,
                     const struct cJSON *got, const char *detail, ...)
     __attribute__((format(printf, 5, 6)));
+
+/* Reports that memory ran out: a failure of ours (ST_NO_MEMORY), not of the document. */
+void reader_no_memory(struct reader *r);
+/* Whether a list holds such a report. */
+bool reader_ran_out_of_memory(const struct failure_list *problems);
 
 /* "a", "b" and so on into a text of at most `size` bytes, cut with "..." at a whole name. */
 void reader_join(const char *const *names, size_t size, char *out);

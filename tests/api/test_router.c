@@ -152,7 +152,7 @@ static void test_body_limits(void **state)
     memset(body, ' ', most + 1);
     body[most + 1] = '\0';
     assert_int_equal(fake_post(f, body), 413);
-    assert_problem(f, 413, "too_large");
+    assert_problem(f, 413, "body_too_large");
     /* One case may have 1 MiB: blanks count. */
     memcpy(body, good_case, strlen(good_case));
     body[1 << 20] = '\0';
@@ -368,7 +368,7 @@ static void test_adaptor_problem(void **state)
 {
     struct api_response res;
     (void)state;
-    router_problem(&res, 413, "too_large", "x");
+    router_problem(&res, 413, "body_too_large", "x");
     assert_int_equal(res.status, 413);
     assert_non_null(strstr(res.body, "\"title\":\"The body is too large\""));
     api_response_done(&res);
