@@ -92,9 +92,8 @@ static struct beam_motion paper_static(double angle)
     def.kind = CASE_MODES;
     built_model(&def, &m);
     double *f = calloc((size_t)m.beam.n_dof, sizeof *f);
-    for (int e = 0; e < m.beam.n_element; e++) {
-        beam_add_uniform_load(&m.beam, e, 0.0, 1.0, 0.0, f);
-    }
+    const struct beam_load upward = {.force = {0.0, 1.0, 0.0}};
+    beam_add_line_load(&m.beam, 0.0, m.beam.length, &upward, f);
     double *x = built_static(&m, f);
     const struct beam_motion tip = beam_motion_at(&m.beam, x, m.beam.length);
     free(x);
@@ -169,7 +168,7 @@ static const char *const table_2 = "[C], validation data 1.4";
 static void minguet_static(struct check_list *list, const struct model *m)
 {
     double *f = calloc((size_t)m->beam.n_dof, sizeof *f);
-    f[beam_index(&m->beam, m->beam.n_element, D_V)] = 1.0;
+    f[beam_index(&m->beam, m->beam.mesh.n_element, D_V)] = 1.0;
     double *x = built_static(m, f);
     const struct beam_motion tip = beam_motion_at(&m->beam, x, m->beam.length);
     check_add(list, CHECK_RELATIVE, "", fabs(tip.theta * m->beam.length / tip.v), 0.489, 0.005,
@@ -185,13 +184,15 @@ static void remove_warping(struct model *m)
 {
     struct section bare = m->section;
     bare.classic[num_at(S_THETA2, S_THETA2, SECTION_CLASSIC)] *= 0.01;
-    beam_done(&m->beam);
+    struct beam original = m->beam;
+    const struct beam_spec spec = {
+        .mesh = &original.mesh, .section = &bare, .uniform = true, .root = original.root};
     modes_done(&m->modes);
-    if (beam_build(&bare, m->def.beam.length, m->def.beam.elements, m->def.beam.root_warping,
-                   &m->beam) != ST_OK ||
+    if (beam_build(&spec, &m->beam) != ST_OK ||
         modes_solve(&m->beam, m->def.beam.section.chord, m->def.solver.modes, &m->modes) != ST_OK) {
         abort();
     }
+    beam_done(&original);
 }
 
 static void minguet(struct check_list *list)

@@ -196,7 +196,7 @@ static void vlasov(struct check_list *list)
         def.beam.root_warping = ROOT_WARPING_RESTRAINED;
         built_model(&def, &m);
         double *f = calloc((size_t)m.beam.n_dof, sizeof *f);
-        f[beam_index(&m.beam, m.beam.n_element, D_THETA)] = torque;
+        f[beam_index(&m.beam, m.beam.mesh.n_element, D_THETA)] = torque;
         double *x = built_static(&m, f);
         const double gj = mat.g_lt * b * h * h * h / 3.0;
         const double ew = e * b * b * b * h * h * h / 144.0, k = sqrt(gj / ew);
