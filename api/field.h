@@ -38,10 +38,6 @@ struct field_range {
 struct field {
     const char *key;
     enum field_kind kind;
-    /* Where it applies, in the kinds it counts in. A required OBJECT that is absent is read as an
-     * empty one, so that each missing member is named. */
-    bool required;
-    bool nullable;  /* OBJECT: `offset` is that of a bool, false when the value is null */
     unsigned kinds; /* kinds of document the member counts in (bits), 0 = all */
     size_t offset;  /* in the struct */
     size_t size;    /* TEXT: bytes with the zero; LIST: bytes of an element */
@@ -49,11 +45,15 @@ struct field {
     const struct field_range *range;
     const char *const *names;   /* ENUM, NAMES: ends with NULL */
     const struct field *fields; /* OBJECT, LIST */
-    size_t count;  /* offset of the int that counts entries (MATRIX: entries of a row) */
-    size_t rows;   /* MATRIX: offset of the int that counts rows */
+    size_t count;               /* offset of the int that counts entries (MATRIX: of a row) */
+    size_t rows;                /* MATRIX: offset of the int that counts rows */
+    int min, max;               /* entries allowed */
+    /* Where it applies, in the kinds it counts in. A required OBJECT that is absent is read as an
+     * empty one, so that each missing member is named. */
+    bool required;
+    bool nullable; /* OBJECT: `offset` is that of a bool, false when the value is null */
     bool sized;    /* ARRAY, VECTOR: the count is known already and must be met */
     bool or_empty; /* sized ARRAY: an empty list stands for zeros */
-    int min, max;  /* entries allowed */
     /* Whether the member may be given at all, judged by members before it; NULL = always. */
     bool (*applies)(const void *base);
     /* Not printed when true; NULL = always printed where it applies. */

@@ -74,7 +74,10 @@ static void skip_space(struct scan *s)
 /* The next character, or 0 at the end (a zero byte is no JSON either). */
 static char peek(const struct scan *s)
 {
-    return s->at < s->size ? s->text[s->at] : '\0';
+    if (s->at >= s->size) {
+        return '\0';
+    }
+    return s->text[s->at];
 }
 
 static bool is_digit(char c)

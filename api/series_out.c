@@ -31,7 +31,7 @@ int series_minmax(int n, const double *value, int points, int *index)
     for (int b = 0; b < buckets; b++) {
         const int first = (int)((long long)n * b / buckets);
         const int last = (int)((long long)n * (b + 1) / buckets);
-        bucket_extremes(value, first, last, &index[2 * b]);
+        bucket_extremes(value, first, last, index + 2 * (ptrdiff_t)b);
     }
     return 2 * buckets;
 }

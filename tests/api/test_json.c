@@ -208,7 +208,9 @@ static void test_numbers_read_back(void **state)
         }
         const size_t n = json_number_text(value, text);
         const double back = strtod(text, NULL);
-        if (n != strlen(text) || memcmp(&back, &value, sizeof back) != 0) {
+        uint64_t bits_back = 0;
+        memcpy(&bits_back, &back, sizeof bits_back);
+        if (n != strlen(text) || bits_back != bits) {
             fail_msg("%a printed as %s reads back as %a", value, text, back);
         }
     }

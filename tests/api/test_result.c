@@ -124,7 +124,7 @@ static double number(const cJSON *tree, const char *path)
     if (!cJSON_IsNumber(node)) {
         fail_msg("%s is not a number", path);
     }
-    return node->valuedouble;
+    return node != NULL ? node->valuedouble : (double)NAN;
 }
 
 static const char *string(const cJSON *tree, const char *key)

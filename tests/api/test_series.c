@@ -185,9 +185,10 @@ static void check_minmax(int n, const double *value, int points)
             low = value[i] < low ? value[i] : low;
             high = value[i] > high ? value[i] : high;
         }
-        const double one = value[index[2 * b]], two = value[index[2 * b + 1]];
-        assert_in_range(index[2 * b], first, last - 1);
-        assert_in_range(index[2 * b + 1], first, last - 1);
+        const int *kept_two = index + 2 * (ptrdiff_t)b;
+        const double one = value[kept_two[0]], two = value[kept_two[1]];
+        assert_in_range(kept_two[0], first, last - 1);
+        assert_in_range(kept_two[1], first, last - 1);
         assert_near_abs(one < two ? one : two, low, 0.0);
         assert_near_abs(one < two ? two : one, high, 0.0);
     }
