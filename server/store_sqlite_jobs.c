@@ -316,7 +316,7 @@ static enum store_status next_lost(struct store_session *s, const char *owner, i
                                    struct lost_job *out)
 {
     struct sql q = sql_begin(s, "SELECT job, lost, state FROM queue JOIN job ON seq = job "
-                                "WHERE lease_until <> 0 AND (owner <> ?1 OR lease_until < ?2) "
+                                "WHERE lease_until > 0 AND (owner <> ?1 OR lease_until < ?2) "
                                 "LIMIT 1");
     sql_text(&q, owner);
     sql_int(&q, now);
