@@ -88,8 +88,8 @@ static enum status identify(struct api_case *c)
     struct json_out identity = {0};
     field_write(&identity, case_fields, kind, c);
     json_string(&identity, AEROM_CORE_VERSION);
-    for (int i = 0; i < c->def.beam.section.n_ply; i++) {
-        material_write(&identity, &c->def.beam.section.ply[i].material);
+    for (int i = 0; i < c->def.beam.section.shape.layup[0].n_ply; i++) {
+        material_write(&identity, &c->def.beam.section.shape.layup[0].ply[i].material);
     }
     const bool flows = c->def.kind == CASE_SIMULATION;
     json_string(&identity, flows ? c->def.aero.polar->hash : NULL);

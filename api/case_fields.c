@@ -26,16 +26,25 @@ static const struct field_range twist = {.min = 0.0, .max = 180.0, .above_min = 
 static const struct field_range share = {.min = 0.0, .max = 1.0};
 static const struct field_range sampling = {.min = 1, .max = LIMIT_STEPS};
 
-/* In the order of the enums of core. */
-const char *const case_kind_names[] = {"simulation", "modes", "section", NULL};
-static const char *const section_names[] = {"strip", NULL};
-static const char *const chordwise_names[] = {"free", "rigid", NULL};
-static const char *const shear_names[] = {"condensed", NULL};
-static const char *const warping_names[] = {"restrained", "free", NULL};
-static const char *const dynamic_names[] = {"none", "network", NULL};
-static const char *const wall_names[] = {"none", "root", "root_and_far", NULL};
-static const char *const integrator_names[] = {"exponential", "rk4_adaptive", NULL};
-static const char *const start_names[] = {"rest", "equilibrium", "amplitudes", NULL};
+/* By the enums of core. */
+const char *const case_kind_names[] = {
+    [CASE_SIMULATION] = "simulation", [CASE_MODES] = "modes", [CASE_SECTION] = "section", NULL};
+static const char *const section_names[] = {[SECTION_STRIP] = "strip", NULL};
+static const char *const chordwise_names[] = {
+    [CHORDWISE_FREE] = "free", [CHORDWISE_RIGID] = "rigid", NULL};
+static const char *const shear_names[] = {[SHEAR_CONDENSED] = "condensed", NULL};
+static const char *const warping_names[] = {
+    [ROOT_WARPING_RESTRAINED] = "restrained", [ROOT_WARPING_FREE] = "free", NULL};
+static const char *const dynamic_names[] = {
+    [DYNAMIC_NONE] = "none", [DYNAMIC_NETWORK] = "network", NULL};
+static const char *const wall_names[] = {
+    [WALLS_NONE] = "none", [WALLS_ROOT] = "root", [WALLS_ROOT_AND_FAR] = "root_and_far", NULL};
+static const char *const integrator_names[] = {
+    [INTEGRATOR_EXPONENTIAL] = "exponential", [INTEGRATOR_RK4_ADAPTIVE] = "rk4_adaptive", NULL};
+static const char *const start_names[] = {[START_REST] = "rest",
+                                          [START_EQUILIBRIUM] = "equilibrium",
+                                          [START_AMPLITUDES] = "amplitudes",
+                                          NULL};
 
 #define AT(member_) offsetof(struct api_case, member_)
 #define NUMBER(key_, member_, kinds_, range_, ...)                                                 \
@@ -79,20 +88,20 @@ static const struct field ply_fields[] = {
 };
 
 static const struct field section_fields[] = {
-    CHOICE("type", def.beam.section.type, section_names, .required = true),
-    NUMBER("chord_m", def.beam.section.chord, ALL, positive, .required = true),
+    CHOICE("type", def.beam.section.shape.type, section_names, .required = true),
+    NUMBER("chord_m", def.beam.section.shape.width, ALL, positive, .required = true),
     {.key = "layup",
      .kind = FIELD_LIST,
      .required = true,
-     .offset = AT(def.beam.section.ply),
+     .offset = AT(def.beam.section.shape.layup[0].ply),
      .size = sizeof(struct ply),
      .fields = ply_fields,
-     .count = AT(def.beam.section.n_ply),
+     .count = AT(def.beam.section.shape.layup[0].n_ply),
      .min = 1,
      .max = LIMIT_PLIES},
-    CHOICE("chordwise_curvature", def.beam.section.chordwise, chordwise_names, .kinds = ALL),
+    CHOICE("chordwise_curvature", def.beam.section.shape.chordwise, chordwise_names, .kinds = ALL),
     CHOICE("shear", def.beam.section.shear, shear_names, .kinds = ALL),
-    INTEGER("contour_elements", def.beam.section.contour_elements, ALL, contour_elements),
+    INTEGER("contour_elements", def.beam.section.shape.contour_elements, ALL, contour_elements),
     {0},
 };
 

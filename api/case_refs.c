@@ -146,8 +146,8 @@ void case_read_networks(struct reader *r, const struct cJSON *json, void *base)
 
 static bool uses_material(const struct api_case *c, const struct material *m)
 {
-    for (int i = 0; i < c->def.beam.section.n_ply; i++) {
-        if (strcmp(c->def.beam.section.ply[i].material.name, m->name) == 0) {
+    for (int i = 0; i < c->def.beam.section.shape.layup[0].n_ply; i++) {
+        if (strcmp(c->def.beam.section.shape.layup[0].ply[i].material.name, m->name) == 0) {
             return true;
         }
     }

@@ -11,10 +11,12 @@ void case_def_defaults(struct case_def *def)
         .kind = CASE_SIMULATION,
         .beam = {.elements = 16,
                  .root_warping = ROOT_WARPING_RESTRAINED,
-                 .section = {.type = SECTION_STRIP,
-                             .chordwise = CHORDWISE_FREE,
-                             .shear = SHEAR_CONDENSED,
-                             .contour_elements = 16}},
+                 .section = {.shape = {.type = SECTION_STRIP,
+                                       .n_layup = 1,
+                                       .cells = -1,
+                                       .chordwise = CHORDWISE_FREE,
+                                       .contour_elements = 16},
+                             .shear = SHEAR_CONDENSED}},
         .flow = {.density = 1.225, .kinematic_viscosity = 1.5e-5},
         .aero = {.dynamic = DYNAMIC_NONE,
                  .lifting_line = true,
@@ -37,6 +39,27 @@ void case_def_defaults(struct case_def *def)
                    .mean_window = 1.0,
                    .modal_window = 0.2},
     };
+}
+
+double section_def_chord(const struct section_def *s)
+{
+    if (s->shape.type == SECTION_STRIP) {
+        return s->shape.width;
+    }
+    if (s->chord > 0.0) {
+        return s->chord;
+    }
+    return shape_extent(&s->shape, 0);
+}
+
+double section_def_height(const struct section_def *s)
+{
+    return shape_extent(&s->shape, 1);
+}
+
+const struct section_def *beam_def_root(const struct beam_def *b)
+{
+    return b->n_station > 0 ? &b->station[0].section : &b->section;
 }
 
 int case_def_channel_columns(const struct case_def *def, enum channel channel)
@@ -100,26 +123,114 @@ static void check_ranges(size_t n, const struct range *r, struct failure_list *o
 
 #define CHECK_RANGES(table, out) check_ranges(sizeof(table) / sizeof((table)[0]), table, out)
 
-static void check_section(const struct section_def *s, struct failure_list *out)
+/* Plies of a layup at `pointer` (of the list of plies). */
+static void check_layup(const struct layup *l, const char *pointer, struct failure_list *out)
 {
-    const struct range rule[] = {
-        {"/beam/section/chord_m", s->chord, 0.0, INFINITY, true, false},
-        {"/beam/section/contour_elements", s->contour_elements, 1, LIMIT_CONTOUR_ELEMENTS, false,
-         false},
-        {"/beam/section/layup", s->n_ply, 1, LIMIT_PLIES, false, false},
-    };
-    CHECK_RANGES(rule, out);
-    for (int i = 0; i < s->n_ply && i < LIMIT_PLIES; i++) {
-        char angle[64], thickness[64], material[64];
-        (void)snprintf(angle, sizeof angle, "/beam/section/layup/%d/angle_deg", i);
-        (void)snprintf(thickness, sizeof thickness, "/beam/section/layup/%d/thickness_m", i);
-        (void)snprintf(material, sizeof material, "/beam/section/layup/%d/material", i);
+    const struct range count = {pointer, l->n_ply, 1, LIMIT_PLIES, false, false};
+    check_range(&count, out);
+    for (int i = 0; i < l->n_ply && i < LIMIT_PLIES; i++) {
+        char angle[160], thickness[160], material[160];
+        (void)snprintf(angle, sizeof angle, "%.120s/%d/angle_deg", pointer, i);
+        (void)snprintf(thickness, sizeof thickness, "%.120s/%d/thickness_m", pointer, i);
+        (void)snprintf(material, sizeof material, "%.120s/%d/material", pointer, i);
         const struct range ply[] = {
-            {angle, num_deg(s->ply[i].angle), -180.0, 180.0, false, false},
-            {thickness, s->ply[i].thickness, 0.0, INFINITY, true, false},
+            {angle, num_deg(l->ply[i].angle), -180.0, 180.0, false, false},
+            {thickness, l->ply[i].thickness, 0.0, INFINITY, true, false},
         };
         CHECK_RANGES(ply, out);
-        material_check(&s->ply[i].material, material, out);
+        material_check(&l->ply[i].material, material, out);
+    }
+}
+
+/* JSON pointer of layup l of a section at `pointer`. */
+static void layup_pointer(const struct shape *s, const char *pointer, int l, char *text,
+                          size_t size)
+{
+    static const char *const box[BOX_WALLS] = {"front", "top", "rear", "bottom"};
+    if (s->type == SECTION_CONTOUR) {
+        (void)snprintf(text, size, "%.100s/layups/%d/layup", pointer, l);
+    } else if (s->n_layup == BOX_WALLS) {
+        (void)snprintf(text, size, "%.100s/walls/%s", pointer, box[l]);
+    } else {
+        (void)snprintf(text, size, "%.100s/layup", pointer);
+    }
+}
+
+static void check_section(const struct section_def *section, const char *pointer,
+                          struct failure_list *out)
+{
+    const struct shape *s = &section->shape;
+    char width[160], height[160], elements[160], layup[160];
+    const bool strip = s->type == SECTION_STRIP;
+    (void)snprintf(width, sizeof width, "%s/%s", pointer, strip ? "chord_m" : "width_m");
+    (void)snprintf(height, sizeof height, "%s/height_m", pointer);
+    (void)snprintf(elements, sizeof elements, "%s/contour_elements", pointer);
+    const struct range size[] = {{width, s->width, 0.0, INFINITY, true, false},
+                                 {height, s->height, 0.0, INFINITY, true, false}};
+    const struct range mesh = {elements, s->contour_elements, 1, LIMIT_CONTOUR_ELEMENTS, false,
+                               false};
+    const int before = out->total;
+    check_ranges(strip ? 1 : (s->type == SECTION_BOX ? 2 : 0), size, out);
+    check_range(&mesh, out);
+    for (int l = 0; l < s->n_layup; l++) {
+        layup_pointer(s, pointer, l, layup, sizeof layup);
+        check_layup(&s->layup[l], layup, out);
+    }
+    if (out->total == before) {
+        shape_check(s, pointer, out);
+    }
+}
+
+/* Stations ascend from the root to the tip, at most two at one place, and neighbours apart from
+ * each other can be blended. */
+static void check_stations(const struct beam_def *b, struct failure_list *out)
+{
+    char pointer[160];
+    for (int i = 0; i < b->n_station; i++) {
+        (void)snprintf(pointer, sizeof pointer, "/beam/stations/%d/section", i);
+        check_section(&b->station[i].section, pointer, out);
+        (void)snprintf(pointer, sizeof pointer, "/beam/stations/%d/z_m", i);
+        const double z = b->station[i].z, last = i > 0 ? b->station[i - 1].z : 0.0;
+        const bool placed = isfinite(z) && (i == 0 ? z == 0.0 : z >= last) &&
+                            (i < b->n_station - 1 || fabs(z - b->length) <= 1e-9 * b->length) &&
+                            !(i > 1 && z <= b->station[i - 2].z);
+        if (!placed) {
+            char got[32];
+            (void)snprintf(got, sizeof got, "%.10g", z);
+            failure_set(failure_add(out), ST_INVALID, pointer, "misplaced_station",
+                        "ascending from 0 to beam.length_m, at most two stations at one place", got,
+                        "the station is out of place");
+        } else if (i > 0 && z > last &&
+                   !shape_same(&b->station[i - 1].section.shape, &b->station[i].section.shape)) {
+            failure_set(failure_add(out), ST_INVALID, pointer, "stations_differ",
+                        "the same type, walls, layups and materials as the station before", NULL,
+                        "the sections cannot be blended; put two stations at one place for a jump");
+        }
+    }
+    if (b->n_station == 1) {
+        failure_set(failure_add(out), ST_INVALID, "/beam/stations", "too_short",
+                    "at least two stations, or `section` for the whole beam", "1 station",
+                    "one station does not make a beam");
+    }
+}
+
+static void check_masses(const struct beam_def *b, struct failure_list *out)
+{
+    for (int i = 0; i < b->n_mass; i++) {
+        const struct beam_mass *m = &b->mass[i];
+        char z[80], mass[80], inertia[3][80];
+        static const char axis[3] = {'x', 'y', 'z'};
+        (void)snprintf(z, sizeof z, "/beam/masses/%d/z_m", i);
+        (void)snprintf(mass, sizeof mass, "/beam/masses/%d/mass_kg", i);
+        const struct range rule[] = {{z, m->z, 0.0, b->length, false, false},
+                                     {mass, m->mass, 0.0, INFINITY, false, false}};
+        CHECK_RANGES(rule, out);
+        for (int k = 0; k < 3; k++) {
+            (void)snprintf(inertia[k], sizeof inertia[k], "/beam/masses/%d/inertia_%c_kg_m2", i,
+                           axis[k]);
+            const struct range r = {inertia[k], m->inertia[k], 0.0, INFINITY, false, false};
+            check_range(&r, out);
+        }
     }
 }
 
@@ -131,14 +242,45 @@ static void check_beam(const struct case_def *def, struct failure_list *out)
         {"/solver/modes", def->solver.modes, 1, LIMIT_MODES, false, false},
     };
     CHECK_RANGES(rule, out);
+    check_masses(&def->beam, out);
     const int freedoms = BEAM_NODE_FREEDOMS * def->beam.elements;
-    if (def->solver.modes > freedoms && def->beam.elements >= 1 &&
+    if (def->kind != CASE_STATIC && def->solver.modes > freedoms && def->beam.elements >= 1 &&
         def->solver.modes <= LIMIT_MODES) {
         char expected[64], got[32];
         (void)snprintf(expected, sizeof expected, "at most %d", freedoms);
         (void)snprintf(got, sizeof got, "%d", def->solver.modes);
         failure_set(failure_add(out), ST_INVALID, "/solver/modes", "too_many_modes", expected, got,
                     "%d elements have %d degrees of freedom", def->beam.elements, freedoms);
+    }
+}
+
+/* Loads and stress positions lie on the beam, and there is something to carry. */
+static void check_static(const struct case_def *def, struct failure_list *out)
+{
+    const struct loads_def *l = &def->loads;
+    const double length = def->beam.length;
+    char a[64], b[64];
+    for (int i = 0; i < l->n_point; i++) {
+        (void)snprintf(a, sizeof a, "/loads/points/%d/z_m", i);
+        const struct range r = {a, l->point[i].z, 0.0, length, false, false};
+        check_range(&r, out);
+    }
+    for (int i = 0; i < l->n_line; i++) {
+        (void)snprintf(a, sizeof a, "/loads/lines/%d/from_m", i);
+        (void)snprintf(b, sizeof b, "/loads/lines/%d/to_m", i);
+        const struct range r[] = {{a, l->line[i].from, 0.0, length, false, false},
+                                  {b, l->line[i].to, l->line[i].from, length, true, false}};
+        CHECK_RANGES(r, out);
+    }
+    for (int i = 0; i < def->output.n_stress; i++) {
+        (void)snprintf(a, sizeof a, "/output/stress_at_m/%d", i);
+        const struct range r = {a, def->output.stress[i], 0.0, length, false, false};
+        check_range(&r, out);
+    }
+    const double *g = def->beam.gravity;
+    if (l->n_point + l->n_line == 0 && g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0) {
+        failure_set(failure_add(out), ST_INVALID, "/loads", "missing",
+                    "points, lines, or beam.gravity_m_s2", NULL, "nothing loads the beam");
     }
 }
 
@@ -235,6 +377,12 @@ static void check_solver(const struct case_def *def, struct failure_list *out)
         failure_set(failure_add(out), ST_INVALID, "/solver/start/amplitudes", "too_many",
                     "at most one per mode", got, "more amplitudes than modes");
     }
+    for (int i = 0; i < s->n_mode_damping && i < LIMIT_MODES; i++) {
+        char pointer[64];
+        (void)snprintf(pointer, sizeof pointer, "/solver/modal_damping_ratios/%d", i);
+        const struct range r = {pointer, s->mode_damping[i], 0.0, 1.0, false, true};
+        check_range(&r, out);
+    }
     for (int i = 0; i < s->n_amplitude && i < LIMIT_MODES; i++) {
         if (!isfinite(s->amplitude[i]) || !isfinite(s->velocity[i])) {
             failure_set(failure_add(out), ST_INVALID, "/solver/start", "not_finite",
@@ -248,9 +396,16 @@ static void check_solver(const struct case_def *def, struct failure_list *out)
 
 void case_def_check(const struct case_def *def, struct failure_list *out)
 {
-    check_section(&def->beam.section, out);
+    if (def->beam.n_station > 0) {
+        check_stations(&def->beam, out);
+    } else {
+        check_section(&def->beam.section, "/beam/section", out);
+    }
     if (def->kind != CASE_SECTION) {
         check_beam(def, out);
+    }
+    if (def->kind == CASE_STATIC) {
+        check_static(def, out);
     }
     if (def->kind == CASE_SIMULATION) {
         check_flow(def, out);

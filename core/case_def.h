@@ -14,7 +14,7 @@
 
 #include <stdbool.h>
 
-enum case_kind { CASE_SIMULATION, CASE_MODES, CASE_SECTION };
+enum case_kind { CASE_SIMULATION, CASE_MODES, CASE_SECTION, CASE_STATIC, CASE_KIND_COUNT };
 enum dynamic_type { DYNAMIC_NONE, DYNAMIC_NETWORK };
 enum integrator { INTEGRATOR_EXPONENTIAL, INTEGRATOR_RK4_ADAPTIVE };
 enum start_type { START_REST, START_EQUILIBRIUM, START_AMPLITUDES };
@@ -44,22 +44,48 @@ enum channel {
 };
 
 struct section_def {
-    enum section_type type;
-    double chord; /* width of the strip [m] */
-    int n_ply;
-    /* Angle: from the span axis, negative towards the leading edge going outboard. Plies are listed
-     * from the lower face (-y) to the upper face (+y). */
-    struct ply ply[LIMIT_PLIES];
-    enum chordwise_curvature chordwise;
-    enum shear_model shear;
-    int contour_elements; /* finite elements along the wall, default 16 */
+    struct shape shape;     /* strip: shape.width is its chord; shape.turn is the twist offset */
+    double chord;           /* aerodynamic chord of a box or contour [m], 0: its extent along x */
+    enum shear_model shear; /* of the whole beam: that of its first section counts */
+};
+
+/* Aerodynamic chord and overall height (strip: thickness) of a section [m]. */
+double section_def_chord(const struct section_def *s);
+double section_def_height(const struct section_def *s);
+
+struct station_def {
+    double z; /* [m]; two stations at one z make a jump */
+    struct section_def section;
 };
 
 struct beam_def {
     double length;                  /* [m] */
     int elements;                   /* default 16 */
     enum root_warping root_warping; /* does the clamp hold the warping? default restrained */
-    struct section_def section;
+    struct section_def section;     /* of the whole beam when there are no stations */
+    int n_station;
+    const struct station_def *station; /* borrowed; linear in between, first at 0, last at length */
+    int n_mass;
+    struct beam_mass mass[LIMIT_MASSES];
+    double gravity[3]; /* acceleration along x, y, z [m/s^2], default none */
+};
+
+/* First section of the beam: of its root. */
+const struct section_def *beam_def_root(const struct beam_def *b);
+
+struct point_load_def {
+    double z; /* [m] */
+    struct beam_load load;
+};
+struct line_load_def {
+    double from, to;       /* [m] */
+    struct beam_load load; /* per length */
+};
+struct loads_def {
+    int n_point;
+    struct point_load_def point[LIMIT_LOADS];
+    int n_line;
+    struct line_load_def line[LIMIT_LOADS];
 };
 
 struct flow_def {
@@ -88,20 +114,24 @@ struct solver_def {
     double tolerance; /* rk4_adaptive: largest error per time step, relative, default 1e-9 */
     int load_order;   /* 0..4, default 1 */
     enum start_type start;
-    int n_amplitude;               /* given entries of the next two */
-    double amplitude[LIMIT_MODES]; /* START_AMPLITUDES: modal amplitudes [kg^0.5 m] */
-    double velocity[LIMIT_MODES];  /* and velocities */
-    double modal_damping;          /* structural damping ratio of every mode, default 0, < 1 */
-    double twist_max;              /* stop rule: |tip twist| [rad], default 60 deg */
-    double plunge_max;             /* stop rule: |tip plunge| / length, default 1 */
-    double outside_max;            /* stop rule: share of the run outside the polar, default 1 */
+    int n_amplitude;                  /* given entries of the next two */
+    double amplitude[LIMIT_MODES];    /* START_AMPLITUDES: modal amplitudes [kg^0.5 m] */
+    double velocity[LIMIT_MODES];     /* and velocities */
+    double modal_damping;             /* structural damping ratio of every mode, default 0, < 1 */
+    int n_mode_damping;               /* given entries of the next one */
+    double mode_damping[LIMIT_MODES]; /* damping ratio of the first modes, instead of the above */
+    double twist_max;                 /* stop rule: |tip twist| [rad], default 60 deg */
+    double plunge_max;                /* stop rule: |tip plunge| / length, default 1 */
+    double outside_max;               /* stop rule: share of the run outside the polar, default 1 */
 };
 
 struct output_def {
     int n_channel;
     enum channel channel[CHANNEL_COUNT];
-    int sample_every;    /* record every n-th time step, default 1 */
-    double mean_window;  /* the means are over the last so many seconds, default 1 */
+    int sample_every;   /* record every n-th time step, default 1 */
+    double mean_window; /* the means are over the last so many seconds, default 1 */
+    int n_stress;       /* static: positions at which ply stresses are asked for */
+    double stress[LIMIT_STRESS_POSITIONS]; /* [m] */
     double modal_window; /* same for the modal contribution, default 0.2 (Fig. 14) */
 };
 
@@ -109,6 +139,7 @@ struct case_def {
     enum case_kind kind;
     char name[128];
     struct beam_def beam;
+    struct loads_def loads; /* static */
     struct flow_def flow;
     struct aero_def aero;
     struct solver_def solver;

@@ -11,6 +11,8 @@ enum {
     LIMIT_POINTS = 64,            /* points of a contour section */
     LIMIT_WALLS = 64,             /* walls of a contour section */
     LIMIT_STATIONS = 12,          /* spanwise stations of a beam */
+    LIMIT_LOADS = 16,             /* point loads, and line loads, of a static case */
+    LIMIT_STRESS_POSITIONS = 16,  /* positions at which stresses are asked for */
     LIMIT_MASSES = 16,            /* lumped masses of a beam */
     LIMIT_ELEMENTS = 256,         /* beam elements = aerodynamic stations */
     LIMIT_MODES = 64,             /* modes kept */

@@ -83,7 +83,7 @@ static void report_section(const struct model *m, struct section_result *out)
     memcpy(out->stiffness_condensed, m->section.classic, sizeof out->stiffness_condensed);
     memcpy(out->mass, m->section.mass, sizeof out->mass);
     out->mass_per_length = m->section.mass[num_at(M_U, M_U, SECTION_MASS)];
-    out->thickness = m->laminate.thickness;
+    out->thickness = m->thickness;
     out->ei_flap = s->ei_flap;
     out->ei_lag = s->ei_lag;
     out->gj = s->gj;
@@ -113,7 +113,7 @@ static void report_modes(const struct model *m, struct sim_result *out)
         struct mode_result *r = &out->mode[j];
         const double *shape = m->modes.shape + (size_t)j * (size_t)m->modes.n_dof;
         const struct beam_motion tip = modes_tip(&m->beam, &m->modes, j);
-        const double chord = m->def.beam.section.chord;
+        const double chord = section_def_chord(beam_def_root(&m->def.beam));
         const double largest = fmax(fmax(fabs(tip.u), fabs(tip.v)), fabs(tip.theta) * chord);
         r->frequency_hz = m->modes.omega[j] / (2.0 * NUM_PI);
         memcpy(r->share, m->modes.share + (size_t)j * MODE_SHARES, sizeof r->share);
@@ -152,8 +152,8 @@ static void report_means(const struct sim *s, struct sim_result *out)
     const struct case_def *def = &s->model.def;
     const double dt = def->solver.time_step;
     const int from = window_start(r, def->output.mean_window, dt);
-    const double chord = def->beam.section.chord;
-    const double force = s->model.dynamic_pressure * chord * def->beam.length;
+    const double force = s->model.dynamic_pressure * s->model.area;
+    const double mean_chord = s->model.area / def->beam.length;
     out->means.window_from = from * dt;
     out->means.window_to = (r->n - 1) * dt;
     out->means.tip_plunge = history_mean(r, HISTORY_PLUNGE, from);
@@ -163,7 +163,7 @@ static void report_means(const struct sim *s, struct sim_result *out)
     out->means.cm = history_mean(r, HISTORY_CM, from);
     out->means.lift = force * out->means.cl;
     out->means.drag = force * out->means.cd;
-    out->means.moment = force * chord * out->means.cm;
+    out->means.moment = force * mean_chord * out->means.cm;
 }
 
 /* Squared mean modal contribution over the last modal_window seconds (Fig. 14). */
@@ -207,17 +207,19 @@ static enum status report_damping(const struct sim *s, struct sim_result *out)
     return st;
 }
 
-/* E* = E_l (h/c)^3 / (rho V^2/2) with the stiffest ply, and V c/nu. */
+/* E* = E_l (h/c)^3 / (rho V^2/2) with the stiffest ply, and V c/nu, both of the root section. */
 static void report_similarity(const struct model *m, struct sim_result *out)
 {
-    const struct section_def *s = &m->def.beam.section;
+    const struct section_def *s = beam_def_root(&m->def.beam);
+    const double chord = section_def_chord(s), ratio = m->thickness / chord;
     double e_l = 0.0;
-    for (int i = 0; i < s->n_ply; i++) {
-        e_l = fmax(e_l, s->ply[i].material.e_l);
+    for (int l = 0; l < s->shape.n_layup; l++) {
+        for (int i = 0; i < s->shape.layup[l].n_ply; i++) {
+            e_l = fmax(e_l, s->shape.layup[l].ply[i].material.e_l);
+        }
     }
-    const double ratio = m->laminate.thickness / s->chord;
     out->e_star = e_l * ratio * ratio * ratio / m->dynamic_pressure;
-    out->reynolds = m->def.flow.speed * s->chord / m->def.flow.kinematic_viscosity;
+    out->reynolds = m->def.flow.speed * chord / m->def.flow.kinematic_viscosity;
 }
 
 static enum status set_start(struct sim *s, struct failure *fail)
@@ -305,7 +307,7 @@ enum status sim_run(struct sim *sim, const struct sim_control *control, struct f
 {
     const enum case_kind kind = sim->model.def.kind;
     report_section(&sim->model, &sim->result.section);
-    if (kind != CASE_SECTION) {
+    if (kind == CASE_MODES || kind == CASE_SIMULATION) {
         report_modes(&sim->model, &sim->result);
     }
     const enum status st = kind == CASE_SIMULATION ? run_simulation(sim, control, fail) : ST_OK;

@@ -17,7 +17,7 @@ static double trailing(double y, double y0, double period)
     return 1.0 / (y - y0);
 }
 
-enum status lifting_line_init(int n, double length, double chord, enum wall_images walls,
+enum status lifting_line_init(int n, double length, const double *chord, enum wall_images walls,
                               double width, double tolerance, int iterations_max,
                               struct lifting_line *out)
 {
@@ -38,8 +38,8 @@ enum status lifting_line_init(int n, double length, double chord, enum wall_imag
             if (walls != WALLS_NONE) {
                 sum += trailing(y, -right, period) - trailing(y, -left, period);
             }
-            /* w/V = Gamma/(4 pi V) sum with Gamma = V c c_l / 2. */
-            ll.induced[num_at(i, j, n)] = chord * sum / (8.0 * NUM_PI);
+            /* w/V = Gamma/(4 pi V) sum with Gamma = V c c_l / 2 of element j. */
+            ll.induced[num_at(i, j, n)] = chord[j] * sum / (8.0 * NUM_PI);
         }
     }
     *out = ll;

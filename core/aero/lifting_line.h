@@ -20,11 +20,11 @@ struct lifting_line {
     double *induced; /* B: induced angle w_i/V [rad] per unit c_l (n x n), column-major */
 };
 
-/* length, chord [m]; width [m] is the distance of the far wall from the root, > length, only used
- * with WALLS_ROOT_AND_FAR. */
-MUST_CHECK enum status lifting_line_init(int n, double length, double chord, enum wall_images walls,
-                                         double width, double tolerance, int iterations_max,
-                                         struct lifting_line *out);
+/* length [m]; chord [m] of each element (n); width [m] is the distance of the far wall from the
+ * root, > length, only used with WALLS_ROOT_AND_FAR. */
+MUST_CHECK enum status lifting_line_init(int n, double length, const double *chord,
+                                         enum wall_images walls, double width, double tolerance,
+                                         int iterations_max, struct lifting_line *out);
 void lifting_line_done(struct lifting_line *ll);
 
 struct lifting_line_state {

@@ -29,15 +29,16 @@ static void fill(int n, double value, double *x)
 static void kinematics(const struct model *m, struct workspace *w)
 {
     const int n = w->n_station;
-    const double speed = m->def.flow.speed, chord = m->def.beam.section.chord;
+    const double speed = m->def.flow.speed;
     fill(n, 0.0, w->plunge);
     fill(n, 0.0, w->plunge_rate);
     fill(n, m->def.flow.incidence, w->alpha_geometric);
-    to_stations(m, m->station_v, w->q, 1.0 / chord, w->plunge);
+    to_stations(m, m->station_v, w->q, 1.0, w->plunge);
     to_stations(m, m->station_v, w->qd, 1.0 / speed, w->plunge_rate);
     to_stations(m, m->station_theta, w->q, 1.0, w->alpha_geometric);
     for (int i = 0; i < n; i++) {
         w->alpha_geometric[i] -= w->plunge_rate[i];
+        w->plunge[i] /= m->chord[i];
     }
 }
 
@@ -117,8 +118,7 @@ static void dynamic_increment(const struct model *m, struct workspace *w, bool s
         return;
     }
     const int n = w->n_station;
-    const double speed = m->def.flow.speed, time = m->def.beam.section.chord / speed;
-    const double step = m->def.solver.time_step;
+    const double speed = m->def.flow.speed, step = m->def.solver.time_step;
     double *mean = w->net_in + num_at(0, NET_IN_MEAN_ALPHA, n);
     double *delta = w->net_in + num_at(0, NET_IN_DELTA_ALPHA, n);
     double *rate = w->net_in + num_at(0, NET_IN_ALPHA_RATE, n);
@@ -134,10 +134,15 @@ static void dynamic_increment(const struct model *m, struct workspace *w, bool s
     }
     fill(n, 0.0, rate);
     fill(n, 0.0, acceleration);
-    to_stations(m, m->station_theta, w->qd, time, rate);
-    to_stations(m, m->station_v, w->qdd, -time / speed, rate);
-    to_stations(m, m->station_theta, w->qdd, time * time, acceleration);
-    to_stations(m, m->station_v, jerk, -time * time / speed, acceleration);
+    to_stations(m, m->station_theta, w->qd, 1.0, rate);
+    to_stations(m, m->station_v, w->qdd, -1.0 / speed, rate);
+    to_stations(m, m->station_theta, w->qdd, 1.0, acceleration);
+    to_stations(m, m->station_v, jerk, -1.0 / speed, acceleration);
+    for (int i = 0; i < n; i++) {
+        const double time = m->chord[i] / speed;
+        rate[i] *= time;
+        acceleration[i] *= time * time;
+    }
     memcpy(w->net_in + num_at(0, NET_IN_PLUNGE_RATE, n), w->plunge_rate, (size_t)n * sizeof *rate);
     w->counters.outside_hull += network_eval(m->network, n, w->net_in, w->net_out);
     for (int i = 0; i < n; i++) {
@@ -151,9 +156,10 @@ static void dynamic_increment(const struct model *m, struct workspace *w, bool s
  * then the modal loads, Eq. (C.5). */
 static void modal_loads(const struct model *m, struct workspace *w)
 {
-    const double chord = m->def.beam.section.chord, q = m->dynamic_pressure;
+    const double q = m->dynamic_pressure;
     const double c = cos(m->def.flow.incidence), s = sin(m->def.flow.incidence);
     for (int i = 0; i < w->n_station; i++) {
+        const double chord = m->chord[i];
         const double lift = q * chord * w->cl[i], drag = q * chord * w->cd[i];
         w->force_x[i] = lift * s - drag * c;
         w->force_y[i] = lift * c + drag * s;
@@ -167,7 +173,7 @@ static void modal_loads(const struct model *m, struct workspace *w)
         for (int i = 0; i < w->n_station; i++) {
             sum += u[i] * w->force_x[i] + v[i] * w->force_y[i] + theta[i] * w->moment[i];
         }
-        w->load[j] = sum * m->station_length;
+        w->load[j] = sum * m->station_length + m->gravity[j];
     }
 }
 
@@ -183,21 +189,21 @@ void loads_evaluate(const struct model *m, struct workspace *w, bool steady)
 
 struct load_totals loads_total(const struct model *m, const struct workspace *w)
 {
+    /* Sums of c c_l, c c_d and c^2 c_m over the span; the mean chord is area over length. */
     double cl = 0.0, cd = 0.0, cm = 0.0;
     for (int i = 0; i < w->n_station; i++) {
-        cl += w->cl[i];
-        cd += w->cd[i];
-        cm += w->cm[i];
+        const double chord = m->chord[i];
+        cl += chord * w->cl[i];
+        cd += chord * w->cd[i];
+        cm += chord * chord * w->cm[i];
     }
-    cl /= w->n_station;
-    cd /= w->n_station;
-    cm /= w->n_station;
-    const double chord = m->def.beam.section.chord;
-    const double force = m->dynamic_pressure * chord * m->def.beam.length;
-    return (struct load_totals){.lift = force * cl,
-                                .drag = force * cd,
-                                .moment = force * chord * cm,
-                                .cl = cl,
-                                .cd = cd,
-                                .cm = cm};
+    const double q = m->dynamic_pressure, mean_chord = m->area / m->def.beam.length;
+    const double lift = q * m->station_length * cl, drag = q * m->station_length * cd;
+    const double moment = q * m->station_length * cm;
+    return (struct load_totals){.lift = lift,
+                                .drag = drag,
+                                .moment = moment,
+                                .cl = lift / (q * m->area),
+                                .cd = drag / (q * m->area),
+                                .cm = moment / (q * m->area * mean_chord)};
 }

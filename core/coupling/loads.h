@@ -12,7 +12,7 @@ void loads_evaluate(const struct model *m, struct workspace *w, bool steady);
 /* Totals over the span of the last evaluation. */
 struct load_totals {
     double lift, drag, moment; /* [N], [N], [N m] */
-    double cl, cd, cm;         /* on the area length x chord */
+    double cl, cd, cm;         /* on the planform area; c_m also on the mean chord */
 };
 struct load_totals loads_total(const struct model *m, const struct workspace *w);
 

@@ -6,44 +6,136 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Stations around z: *t is the place between number i (returned) and i + 1. */
+static int stations_around(const struct beam_def *b, double z, double *t)
+{
+    int i = 0;
+    while (i + 2 < b->n_station && z >= b->station[i + 1].z) {
+        i++;
+    }
+    const double span = b->station[i + 1].z - b->station[i].z;
+    *t = span > 0.0 ? num_clamp((z - b->station[i].z) / span, 0.0, 1.0) : 1.0;
+    return i;
+}
+
+void model_shape_at(const struct beam_def *b, double z, struct shape *out)
+{
+    if (b->n_station == 0) {
+        *out = b->section.shape;
+        return;
+    }
+    double t = 0.0;
+    const int i = stations_around(b, z, &t);
+    shape_blend(&b->station[i].section.shape, &b->station[i + 1].section.shape, t, out);
+}
+
+double model_chord_at(const struct beam_def *b, double z)
+{
+    if (b->n_station == 0) {
+        return section_def_chord(&b->section);
+    }
+    double t = 0.0;
+    const int i = stations_around(b, z, &t);
+    const double inner = section_def_chord(&b->station[i].section);
+    return inner + t * (section_def_chord(&b->station[i + 1].section) - inner);
+}
+
+static enum status section_of(const struct shape *shape, struct section *out)
+{
+    struct laminate *laminate = malloc(LIMIT_WALLS * sizeof *laminate);
+    struct contour contour = {0};
+    if (laminate == NULL) {
+        return ST_NO_MEMORY;
+    }
+    enum status st = shape_build(shape, &contour, laminate);
+    if (st == ST_OK) {
+        st = section_build(&contour, laminate, out);
+    }
+    contour_done(&contour);
+    free(laminate);
+    return st;
+}
+
 static enum status build_section(struct model *m)
 {
-    const struct section_def *s = &m->def.beam.section;
-    /* The contour of a strip runs from the leading to the trailing edge, so the case's angle
-     * (negative towards the leading edge) is the laminate's angle towards +s as it stands. */
-    enum status st = laminate_build(s->n_ply, s->ply, s->chordwise, &m->laminate);
-    struct contour contour = {0};
-    if (st == ST_OK) {
-        st = contour_strip(s->chord, s->contour_elements, &contour);
-    }
-    if (st == ST_OK) {
-        st = section_build(&contour, &m->laminate, &m->section);
-    }
+    const struct section_def *root = beam_def_root(&m->def.beam);
+    m->thickness = section_def_height(root);
+    enum status st = section_of(&root->shape, &m->section);
     if (st == ST_OK) {
         st = section_summarise(&m->section, &m->section_summary);
     }
-    contour_done(&contour);
+    if (st == ST_OK) {
+        st = centres_find(&m->section, &m->centres);
+    }
     return st;
+}
+
+/* Nodes where stations and lumped masses are. */
+static enum status build_mesh(const struct beam_def *b, struct beam_mesh *out)
+{
+    double extra[LIMIT_STATIONS + LIMIT_MASSES];
+    int n = 0;
+    for (int i = 0; i < b->n_station; i++) {
+        extra[n++] = b->station[i].z;
+    }
+    for (int i = 0; i < b->n_mass; i++) {
+        extra[n++] = b->mass[i].z;
+    }
+    return beam_mesh_build(b->length, b->elements, n, extra, out);
 }
 
 static enum status build_beam(struct model *m)
 {
     const struct beam_def *b = &m->def.beam;
     struct beam_mesh mesh = {0};
-    enum status st = beam_mesh_build(b->length, b->elements, 0, NULL, &mesh);
+    struct section *varying = NULL;
+    struct shape *shape = NULL;
+    enum status st = build_mesh(b, &mesh);
+    if (st == ST_OK && b->n_station > 0) {
+        varying = malloc((size_t)(BEAM_GAUSS * mesh.n_element) * sizeof *varying);
+        shape = malloc(sizeof *shape);
+        st = varying != NULL && shape != NULL ? ST_OK : ST_NO_MEMORY;
+        for (int i = 0; i < BEAM_GAUSS * mesh.n_element && st == ST_OK; i++) {
+            model_shape_at(b, beam_mesh_gauss(&mesh, i / BEAM_GAUSS, i % BEAM_GAUSS), shape);
+            st = section_of(shape, &varying[i]);
+        }
+    }
     if (st == ST_OK) {
         const struct beam_spec spec = {.mesh = &mesh,
-                                       .section = &m->section,
-                                       .uniform = true,
-                                       .shear = b->section.shear,
-                                       .root = b->root_warping};
+                                       .section = varying != NULL ? varying : &m->section,
+                                       .uniform = varying == NULL,
+                                       .shear = beam_def_root(b)->shear,
+                                       .root = b->root_warping,
+                                       .n_mass = b->n_mass,
+                                       .mass = b->mass};
         st = beam_build(&spec, &m->beam);
     }
+    free(shape);
+    free(varying);
     beam_mesh_done(&mesh);
-    if (st == ST_OK) {
-        st = modes_solve(&m->beam, b->section.chord, m->def.solver.modes, &m->modes);
+    if (st == ST_OK && m->def.kind != CASE_STATIC) {
+        st = modes_solve(&m->beam, section_def_chord(beam_def_root(b)), m->def.solver.modes,
+                         &m->modes);
     }
     return st;
+}
+
+/* Damping ratio of mode j: its own, or the one of all. */
+static double damping_ratio(const struct solver_def *s, int j)
+{
+    return j < s->n_mode_damping ? s->mode_damping[j] : s->modal_damping;
+}
+
+/* Work of gravity on a mode. */
+static double gravity_load(const struct beam *b, const double gravity[3], const double *shape)
+{
+    double sum = 0.0;
+    for (int d = 0; d < 3; d++) {
+        for (int i = 0; i < b->n_dof; i++) {
+            sum += gravity[d] * b->inertia[num_at(i, d, b->n_dof)] * shape[i];
+        }
+    }
+    return sum;
 }
 
 static enum status build_transfer(struct model *m)
@@ -52,19 +144,28 @@ static enum status build_transfer(struct model *m)
     m->n_station = m->def.beam.elements;
     m->station_length = m->def.beam.length / m->n_station;
     const size_t nm = (size_t)m->n_mode, block = nm * (size_t)m->n_station;
-    m->omega2 = malloc((2 * nm + 3 * block) * sizeof *m->omega2);
+    const size_t ns = (size_t)m->n_station;
+    m->omega2 = malloc((3 * nm + ns + 3 * block) * sizeof *m->omega2);
     m->tip = malloc(nm * sizeof *m->tip);
     if (m->omega2 == NULL || m->tip == NULL) {
         return ST_NO_MEMORY;
     }
     m->damping = m->omega2 + nm;
-    m->station_u = m->damping + nm;
+    m->gravity = m->damping + nm;
+    m->chord = m->gravity + nm;
+    m->station_u = m->chord + ns;
     m->station_v = m->station_u + block;
     m->station_theta = m->station_v + block;
+    m->area = 0.0;
+    for (int i = 0; i < m->n_station; i++) {
+        m->chord[i] = model_chord_at(&m->def.beam, (i + 0.5) * m->station_length);
+        m->area += m->chord[i] * m->station_length;
+    }
     for (int j = 0; j < m->n_mode; j++) {
         const double *shape = m->modes.shape + (size_t)j * (size_t)m->modes.n_dof;
         m->omega2[j] = num_sq(m->modes.omega[j]);
-        m->damping[j] = 2.0 * m->def.solver.modal_damping * m->modes.omega[j];
+        m->damping[j] = 2.0 * damping_ratio(&m->def.solver, j) * m->modes.omega[j];
+        m->gravity[j] = gravity_load(&m->beam, m->def.beam.gravity, shape);
         m->tip[j] = modes_tip(&m->beam, &m->modes, j);
         for (int i = 0; i < m->n_station; i++) {
             const struct beam_motion at =
@@ -88,8 +189,8 @@ static enum status build_aero(struct model *m)
         st = network_create(a->network, &m->network);
     }
     if (st == ST_OK && a->lifting_line) {
-        st = lifting_line_init(m->n_station, b->length, b->section.chord, a->walls, a->width,
-                               a->tolerance, a->iterations_max, &m->lifting_line);
+        st = lifting_line_init(m->n_station, b->length, m->chord, a->walls, a->width, a->tolerance,
+                               a->iterations_max, &m->lifting_line);
     }
     return st;
 }
@@ -100,7 +201,7 @@ enum status model_build(const struct case_def *def, struct model *out, struct fa
     const char *part = "section", *pointer = "/beam/section";
     enum status st = build_section(&m);
     if (st == ST_OK && def->kind != CASE_SECTION) {
-        part = "natural modes";
+        part = "beam and its modes";
         pointer = "/beam";
         st = build_beam(&m);
     }

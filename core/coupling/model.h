@@ -1,31 +1,35 @@
 /* core/coupling/model.h
- * case_def -> immutable model: section, beam, modes, aerodynamic tables and the transfer between
+ * case_def -> immutable model: sections, beam, modes, aerodynamic tables and the transfer between
  * modes and stations. Built once, then only read; any number of threads may share it. */
 #ifndef AEROM_CORE_COUPLING_MODEL_H
 #define AEROM_CORE_COUPLING_MODEL_H
 
 #include "core/case_def.h"
+#include "core/structure/centres.h"
 #include "core/structure/modes.h"
-#include "core/structure/section.h"
 
 struct model {
-    struct case_def def; /* the case, polar and network still borrowed */
-    struct laminate laminate;
-    struct section section;
+    struct case_def def;    /* the case; polar, network and stations still borrowed */
+    struct section section; /* of the root */
     struct section_summary section_summary;
+    struct centres centres;
+    double thickness;   /* of the root section, overall [m] */
     struct beam beam;   /* not for CASE_SECTION */
-    struct modes modes; /* not for CASE_SECTION */
+    struct modes modes; /* CASE_MODES and CASE_SIMULATION */
 
     /* The rest only for CASE_SIMULATION. */
     struct polar *polar;
     struct network *network;          /* NULL without one */
     struct lifting_line lifting_line; /* n = 0 without one */
     int n_mode;
-    int n_station;           /* element mid-points */
+    int n_station;           /* middles of equal parts of the span */
     double station_length;   /* [m] */
     double dynamic_pressure; /* rho V^2 / 2 [Pa] */
+    double area;             /* of the planform [m^2] */
+    double *chord;           /* at the stations [m] (n_station) */
     double *omega2;          /* squared natural frequencies (n_mode) */
     double *damping;         /* 2 zeta omega               (n_mode) */
+    double *gravity;         /* modal load of gravity      (n_mode) */
     /* Mode shapes at the stations, station fastest. Loads use the same matrices, so the power of
      * the loads on the stations is that on the modes. */
     double *station_u;       /* (n_station x n_mode) */
@@ -38,5 +42,11 @@ struct model {
 MUST_CHECK enum status model_build(const struct case_def *def, struct model *out,
                                    struct failure *fail);
 void model_done(struct model *m);
+
+/* Shape of the section at z [m]: that of the beam, or blended between its stations. At a jump the
+ * outer side. */
+void model_shape_at(const struct beam_def *b, double z, struct shape *out);
+/* Aerodynamic chord at z [m]. */
+double model_chord_at(const struct beam_def *b, double z);
 
 #endif

@@ -85,8 +85,13 @@ static int put_channel(const struct model *m, const struct workspace *w, enum ch
         return put_vector(r, row, column, nm, w->q, 1.0);
     case CHANNEL_MODAL_VELOCITY:
         return put_vector(r, row, column, nm, w->qd, 1.0);
-    case CHANNEL_STATION_PLUNGE:
-        return put_vector(r, row, column, ns, w->plunge, m->def.beam.section.chord);
+    case CHANNEL_STATION_PLUNGE: {
+        double plunge[LIMIT_ELEMENTS];
+        for (int i = 0; i < ns; i++) {
+            plunge[i] = w->plunge[i] * m->chord[i];
+        }
+        return put_vector(r, row, column, ns, plunge, 1.0);
+    }
     case CHANNEL_STATION_TWIST: {
         /* theta = alpha_g - alpha_0 + v_dot/V */
         double twist[LIMIT_ELEMENTS];

@@ -102,6 +102,29 @@ struct shape_point shape_wall_point(const struct shape_wall *w, const struct sha
     return (struct shape_point){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
 }
 
+double shape_extent(const struct shape *s, int axis)
+{
+    enum { PIECES = 16 }; /* of a curved wall */
+    switch (s->type) {
+    case SECTION_STRIP:
+        return axis == 0 ? s->width : layup_thickness(&s->layup[0]);
+    case SECTION_BOX:
+        return axis == 0 ? s->width : s->height;
+    case SECTION_CONTOUR:
+        break;
+    }
+    double lo = HUGE_VAL, hi = -HUGE_VAL;
+    for (int w = 0; w < s->n_wall; w++) {
+        for (int i = 0; i <= PIECES; i++) {
+            const struct shape_point p =
+                shape_wall_point(&s->wall[w], s->point, (double)i / PIECES);
+            lo = fmin(lo, axis == 0 ? p.x : p.y);
+            hi = fmax(hi, axis == 0 ? p.x : p.y);
+        }
+    }
+    return hi > lo ? hi - lo : 0.0;
+}
+
 static struct shape_point turned(struct shape_point p, double angle)
 {
     /* Nose-up about z: x + i y is turned by +angle (u = -y theta, v = x theta). */

@@ -64,6 +64,10 @@ int shape_cells(const struct shape *s);
 MUST_CHECK enum status shape_build(const struct shape *s, struct contour *contour,
                                    struct laminate laminate[LIMIT_WALLS]);
 
+/* Outer extent along x (axis 0) or y (axis 1) before the section is turned; across a wall only the
+ * thickness of a strip counts. [m] */
+double shape_extent(const struct shape *s, int axis);
+
 /* Point of a wall at t in [0, 1] of its length, before the section is turned. */
 struct shape_point shape_wall_point(const struct shape_wall *w, const struct shape_point *point,
                                     double t);

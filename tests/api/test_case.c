@@ -80,11 +80,11 @@ static void test_defaults(void **state)
     assert_int_equal(def->kind, CASE_SIMULATION);
     assert_string_equal(def->name, "");
     assert_int_equal(def->beam.elements, 16);
-    assert_int_equal(def->beam.section.n_ply, 2);
-    assert_near_abs(def->beam.section.ply[0].angle, num_rad(-45.0), 0.0);
-    assert_near_abs(def->beam.section.ply[1].angle, 0.0, 0.0);
-    assert_near_abs(def->beam.section.ply[0].material.e_l, 141.96e9, 0.0);
-    assert_string_equal(def->beam.section.ply[1].material.name, "foam");
+    assert_int_equal(def->beam.section.shape.layup[0].n_ply, 2);
+    assert_near_abs(def->beam.section.shape.layup[0].ply[0].angle, num_rad(-45.0), 0.0);
+    assert_near_abs(def->beam.section.shape.layup[0].ply[1].angle, 0.0, 0.0);
+    assert_near_abs(def->beam.section.shape.layup[0].ply[0].material.e_l, 141.96e9, 0.0);
+    assert_string_equal(def->beam.section.shape.layup[0].ply[1].material.name, "foam");
     assert_near_abs(def->flow.density, 1.225, 0.0);
     assert_string_equal(def->aero.polar->name, "plate-4pct-channel");
     assert_true(def->aero.lifting_line);
@@ -160,7 +160,8 @@ static void test_full_case(void **state)
 {
     struct api_case *c = parse_good(*state, full);
     const struct case_def *def = api_case_def(c);
-    assert_near_abs(def->beam.section.ply[1].material.g_lt, 5.86e6, 0.0); /* the local foam wins */
+    assert_near_abs(def->beam.section.shape.layup[0].ply[1].material.g_lt, 5.86e6,
+                    0.0); /* the local foam wins */
     assert_int_equal(def->aero.polar->n_plunge, 2);
     assert_near_abs(def->aero.polar->cl[5], 1.1, 0.0);
     assert_near_abs(def->aero.polar->alpha[2], num_rad(12.3), 0.0);
@@ -386,7 +387,7 @@ static void test_all_problems_at_once(void **state)
 static void test_at_most_100_problems(void **state)
 {
     struct fixture *f = *state;
-    char *text = malloc(64 * 1024);
+    char *text = malloc((size_t)64 * 1024);
     char *at = text + sprintf(text, "{\"schema_version\":1,\"kind\":\"section\",\"beam\":{"
                                     "\"section\":{\"type\":\"strip\",\"chord_m\":0.1,\"layup\":[");
     for (int i = 0; i < LIMIT_PLIES; i++) {

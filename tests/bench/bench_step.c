@@ -91,8 +91,8 @@ static void plain_network(const struct network_def *d, int n, const double *x, d
             for (int j = 0; j < d->n_hidden; j++) {
                 double v = d->b1[j];
                 for (int i = 0; i < d->n_in; i++) {
-                    v += d->w1[i + d->n_in * j] *
-                         (x[num_at(s, i, n)] - d->in_offset[i]) / d->in_scale[i];
+                    v += d->w1[i + d->n_in * j] * (x[num_at(s, i, n)] - d->in_offset[i]) /
+                         d->in_scale[i];
                 }
                 sum += d->w2[j + d->n_hidden * o] * tanh(v);
             }

@@ -62,11 +62,11 @@ void fixture_paper_beam(double degrees, const struct polar_def *polar, struct ca
     (void)snprintf(out->name, sizeof out->name, "paper beam, %g deg", degrees);
     out->beam.length = 0.37;
     struct section_def *s = &out->beam.section;
-    s->chord = 0.1;
-    s->n_ply = 2;
-    s->ply[0] =
+    s->shape.width = 0.1;
+    s->shape.layup[0].n_ply = 2;
+    s->shape.layup[0].ply[0] =
         (struct ply){.material = fixture_skin(), .angle = num_rad(degrees), .thickness = 0.00013};
-    s->ply[1] = (struct ply){.material = fixture_foam(), .thickness = 0.00387};
+    s->shape.layup[0].ply[1] = (struct ply){.material = fixture_foam(), .thickness = 0.00387};
     out->flow.speed = 6.0;
     out->flow.incidence = num_rad(5.0);
     out->aero.polar = polar;
@@ -80,9 +80,9 @@ void fixture_strip(const struct material *m, double length, double chord, double
     out->kind = CASE_MODES;
     out->beam.length = length;
     out->beam.root_warping = ROOT_WARPING_FREE;
-    out->beam.section.chord = chord;
-    out->beam.section.n_ply = 1;
-    out->beam.section.ply[0] = (struct ply){.material = *m, .thickness = thickness};
+    out->beam.section.shape.width = chord;
+    out->beam.section.shape.layup[0].n_ply = 1;
+    out->beam.section.shape.layup[0].ply[0] = (struct ply){.material = *m, .thickness = thickness};
 }
 
 void fixture_minguet_strip(struct case_def *out)
@@ -91,9 +91,9 @@ void fixture_minguet_strip(struct case_def *out)
     const struct material m = fixture_minguet();
     fixture_strip(&m, 0.55, 0.03, 0.000134, out);
     out->solver.modes = 5;
-    out->beam.section.n_ply = 4;
+    out->beam.section.shape.layup[0].n_ply = 4;
     for (int i = 0; i < 4; i++) {
-        out->beam.section.ply[i] =
+        out->beam.section.shape.layup[0].ply[i] =
             (struct ply){.material = m, .angle = num_rad(degrees[i]), .thickness = 0.000134};
     }
 }

@@ -39,7 +39,7 @@ static void paper_frequencies(struct check_list *list)
         fixture_paper_beam(r->angle, NULL, &def);
         def.kind = CASE_MODES;
         def.solver.modes = 8;
-        def.beam.section.chordwise = r->chordwise;
+        def.beam.section.shape.chordwise = r->chordwise;
         built_model(&def, &m);
         for (int k = 0; k < 3; k++) {
             check_add(list, CHECK_RELATIVE, "Hz", built_frequency(&m, BENDING, k), r->bending[k],
@@ -189,7 +189,8 @@ static void remove_warping(struct model *m)
         .mesh = &original.mesh, .section = &bare, .uniform = true, .root = original.root};
     modes_done(&m->modes);
     if (beam_build(&spec, &m->beam) != ST_OK ||
-        modes_solve(&m->beam, m->def.beam.section.chord, m->def.solver.modes, &m->modes) != ST_OK) {
+        modes_solve(&m->beam, m->def.beam.section.shape.width, m->def.solver.modes, &m->modes) !=
+            ST_OK) {
         abort();
     }
     beam_done(&original);
@@ -246,7 +247,7 @@ static void isotropic_strip(struct check_list *list)
         struct case_def def;
         struct model m;
         fixture_strip(&mat, length, b, h, &def);
-        def.beam.section.chordwise = s->chordwise;
+        def.beam.section.shape.chordwise = s->chordwise;
         def.solver.modes = 30;
         built_model(&def, &m);
         for (int k = 0; k < 3; k++) {

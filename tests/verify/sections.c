@@ -20,7 +20,7 @@ static void strip_stiffness(struct check_list *list)
     struct case_def def;
     struct model m;
     fixture_strip(&mat, 1.0, b, h, &def);
-    def.beam.section.contour_elements = 64; /* the shear stress is a parabola: order 4 */
+    def.beam.section.shape.contour_elements = 64; /* the shear stress is a parabola: order 4 */
     built_model(&def, &m);
     const struct {
         const char *what, *unit;
@@ -159,13 +159,13 @@ static void invariances(struct check_list *list)
         fixture_paper_beam(angle[i], NULL, &def);
         def.kind = CASE_SECTION;
         built_model(&def, &m);
-        def.beam.section.ply[0].angle += NUM_PI;
-        def.beam.section.ply[1].angle -= NUM_PI;
+        def.beam.section.shape.layup[0].ply[0].angle += NUM_PI;
+        def.beam.section.shape.layup[0].ply[1].angle -= NUM_PI;
         built_model(&def, &turned);
         check_add(list, CHECK_AT_MOST, "",
                   matrix_distance(N, turned.section.stiffness, m.section.stiffness), 0.0, 1e-10,
                   "property", "paper beam, %g deg: plies turned by 180 deg", angle[i]);
-        def.beam.section.contour_elements = 64;
+        def.beam.section.shape.contour_elements = 64;
         built_model(&def, &refined);
         check_add(list, CHECK_AT_MOST, "",
                   matrix_distance(C, refined.section.classic, m.section.classic), 0.0, 1e-9,
