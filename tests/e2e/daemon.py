@@ -31,6 +31,13 @@ class Daemon:
         with open(self.log_path, errors="replace") as f:
             return f.read()
 
+    def wait_log(self, text, seconds=10):
+        """A line is written after what it reports has happened: wait for it."""
+        end = time.monotonic() + seconds
+        while text not in self.log():
+            assert time.monotonic() < end, f"no '{text}' in {self.log()}"
+            time.sleep(0.01)
+
     def wait_ready(self, seconds=60):
         end = time.monotonic() + seconds
         while time.monotonic() < end:

@@ -175,7 +175,7 @@ class Http(DaemonTest):
                     ended = True
         self.assertTrue(ended)
         self.assertLess(time.monotonic() - start, 15)
-        self.assertIn("http_late", self.d.log())
+        self.d.wait_log("http_late")
 
     def test_repeated_suspension(self):
         """Each submit suspends its connection until the commit: none may be forgotten."""
