@@ -84,6 +84,8 @@ static void report_section(const struct model *m, struct section_result *out)
     memcpy(out->mass, m->section.mass, sizeof out->mass);
     out->mass_per_length = m->section.mass[num_at(M_U, M_U, SECTION_MASS)];
     out->thickness = m->thickness;
+    out->centres = m->centres;
+    out->cells = shape_cells(&beam_def_root(&m->def.beam)->shape);
     out->ei_flap = s->ei_flap;
     out->ei_lag = s->ei_lag;
     out->gj = s->gj;
@@ -303,6 +305,16 @@ static enum status run_simulation(struct sim *s, const struct sim_control *contr
     return st;
 }
 
+static enum status run_static(struct sim *s, struct failure *fail)
+{
+    const enum status st = statics_run(&s->model, &s->result.statics);
+    if (st != ST_OK) {
+        failure_set(fail, st, "/beam", status_name(st), NULL, NULL,
+                    "the static deflection could not be computed: %s", status_text(st));
+    }
+    return st;
+}
+
 enum status sim_run(struct sim *sim, const struct sim_control *control, struct failure *fail)
 {
     const enum case_kind kind = sim->model.def.kind;
@@ -310,7 +322,12 @@ enum status sim_run(struct sim *sim, const struct sim_control *control, struct f
     if (kind == CASE_MODES || kind == CASE_SIMULATION) {
         report_modes(&sim->model, &sim->result);
     }
-    const enum status st = kind == CASE_SIMULATION ? run_simulation(sim, control, fail) : ST_OK;
+    enum status st = ST_OK;
+    if (kind == CASE_SIMULATION) {
+        st = run_simulation(sim, control, fail);
+    } else if (kind == CASE_STATIC) {
+        st = run_static(sim, fail);
+    }
     if (st == ST_OK && control != NULL && control->progress != NULL) {
         atomic_store(control->progress, 1.0);
     }
@@ -332,6 +349,7 @@ const double *sim_column(const struct sim *sim, int column)
 void sim_destroy(struct sim *sim)
 {
     if (sim != NULL) {
+        statics_done(&sim->result.statics);
         record_done(&sim->record);
         workspace_done(&sim->workspace);
         model_done(&sim->model);

@@ -8,6 +8,7 @@
 #define AEROM_CORE_SIM_H
 
 #include "core/analysis/damping.h"
+#include "core/analysis/statics.h"
 #include "core/analysis/verdict.h"
 #include "core/coupling/march.h"
 
@@ -33,7 +34,9 @@ struct section_result {
     double stiffness_condensed[SECTION_CLASSICAL * SECTION_CLASSICAL];
     double mass[SECTION_MASS * SECTION_MASS];
     double mass_per_length; /* [kg/m] */
-    double thickness;       /* of the wall [m] */
+    double thickness;       /* overall: of the wall of a strip, else the height [m] */
+    struct centres centres;
+    int cells; /* closed ones */
     /* With axial force and the other curvatures free: [N m^2] */
     double ei_flap, ei_lag, gj;
     double bend_twist; /* flap curvature - twist rate coupling, axial force free [N m^2] */
@@ -68,6 +71,7 @@ struct sim_result {
     double e_star;    /* E_l (h/c)^3 / (rho V^2 / 2), E_l of the stiffest ply */
     double reynolds;
     struct section_result section;
+    struct static_result statics; /* CASE_STATIC */
     int n_mode;
     struct mode_result mode[LIMIT_MODES];
     struct {

@@ -53,14 +53,22 @@ static void scatter(const struct beam *b, int node, int n, const double *local, 
 }
 
 /* Adds m r for unit accelerations of the whole beam along x, y, z. */
-static void scatter_inertia(const struct beam *b, int node, int n, const double *m)
+static void scatter_inertia(struct beam *b, int node, int n, const double *m)
 {
     static const enum beam_freedom direction[3] = {D_U, D_V, D_W};
     for (int i = 0; i < n; i++) {
         const int row = element_index(b, node, i);
-        for (int d = 0; d < 3 && row >= 0; d++) {
+        const bool at_root = node == 0 && i < NODE;
+        for (int d = 0; d < 3; d++) {
+            double sum = 0.0;
             for (int j = (int)direction[d]; j < n; j += NODE) {
-                b->inertia[num_at(row, d, b->n_dof)] += m[num_at(i, j, n)];
+                sum += m[num_at(i, j, n)];
+            }
+            if (row >= 0) {
+                b->inertia[num_at(row, d, b->n_dof)] += sum;
+            }
+            if (at_root) {
+                b->root_inertia[num_at(i, d, NODE)] += sum;
             }
         }
     }

@@ -65,8 +65,11 @@ struct beam {
     double *k;       /* stiffness (n_dof x n_dof) */
     double *m;       /* mass      (n_dof x n_dof) */
     double *inertia; /* inertial load of unit accelerations along x, y, z (n_dof x 3) */
-    double *inner;   /* internal modes of each element per unit of its node freedoms
-                        (BEAM_INNER x BEAM_OUTER x n_element) */
+    /* The same on the freedoms of the root node, clamped or not (BEAM_NODE_FREEDOMS x 3): what of
+     * the weight goes straight into the clamp. */
+    double root_inertia[BEAM_NODE_FREEDOMS * 3];
+    double *inner; /* internal modes of each element per unit of its node freedoms
+                      (BEAM_INNER x BEAM_OUTER x n_element) */
 };
 
 MUST_CHECK enum status beam_build(const struct beam_spec *spec, struct beam *out);

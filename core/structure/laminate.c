@@ -162,6 +162,37 @@ static void add_ply(struct laminate *lam, const struct ply *ply, double lower)
     lam->m2 += m->density * moment[2];
 }
 
+struct laminate_cross laminate_cross_strain(const struct laminate *lam,
+                                            enum chordwise_curvature chordwise,
+                                            const double e[WALL_STRAINS])
+{
+    /* Resultants N_ss, L_ss of the given strains alone; index 1 = s, 0 = z, 2 = sz. */
+    const double n = lam->a[1] * e[0] + lam->a[7] * e[1] + lam->b[1] * e[2] + lam->b[7] * e[3];
+    const double l = lam->b[1] * e[0] + lam->b[7] * e[1] + lam->d[1] * e[2] + lam->d[7] * e[3];
+    const double a = lam->a[4], b = lam->b[4], d = lam->d[4];
+    if (chordwise == CHORDWISE_RIGID) {
+        return (struct laminate_cross){.eps_ss = -n / a};
+    }
+    const double det = a * d - b * b;
+    return (struct laminate_cross){.eps_ss = (-n * d + l * b) / det,
+                                   .kappa_ss = (-l * a + n * b) / det};
+}
+
+struct ply_stress ply_stress_of(const struct ply *ply, const double strain[3])
+{
+    double q[9], global[3];
+    ply_stiffness(ply, q);
+    for (int i = 0; i < 3; i++) {
+        global[i] = q[i] * strain[0] + q[i + 3] * strain[1] + q[i + 6] * strain[2];
+    }
+    const double c = cos(ply->angle), s = sin(ply->angle);
+    return (struct ply_stress){
+        .l = c * c * global[0] + s * s * global[1] + 2.0 * c * s * global[2],
+        .t = s * s * global[0] + c * c * global[1] - 2.0 * c * s * global[2],
+        .lt = c * s * (global[1] - global[0]) + (c * c - s * s) * global[2],
+    };
+}
+
 enum status laminate_build(int n_ply, const struct ply *ply, enum chordwise_curvature chordwise,
                            struct laminate *out)
 {
@@ -183,7 +214,7 @@ enum status laminate_build_at(int n_ply, const struct ply *ply, double offset,
         }
         lam.thickness += ply[i].thickness;
     }
-    double lower = offset - 0.5 * lam.thickness;
+    double lower = lam.lower = offset - 0.5 * lam.thickness;
     for (int i = 0; i < n_ply; i++) {
         add_ply(&lam, &ply[i], lower);
         lower += ply[i].thickness;

@@ -25,6 +25,7 @@ enum { WALL_STRAINS = 4 }; /* order: eps_zz, gamma_sz, kappa_zz, kappa_sz */
 
 struct laminate {
     double thickness; /* [m] */
+    double lower;     /* n of its lowest face [m] */
     /* Full plane-stress stiffness, index 0 = z, 1 = s, 2 = sz (column-major, symmetric):
      * (A.21) with the exact integral through each ply. [N/m], [N], [N m], [N m^2], [N m^3] */
     double a[9], b[9], d[9], f[9], h[9];
@@ -40,6 +41,21 @@ struct laminate {
     /* Mass moments about n = 0: [kg/m^2], [kg/m], [kg]. */
     double m0, m1, m2;
 };
+
+/* Strain of the wall across it, eps_ss(n) = eps_ss + n kappa_ss, that the elimination leaves for
+ * wall strains e (WALL_STRAINS, order above). */
+struct laminate_cross {
+    double eps_ss, kappa_ss;
+};
+struct laminate_cross laminate_cross_strain(const struct laminate *lam,
+                                            enum chordwise_curvature chordwise,
+                                            const double e[WALL_STRAINS]);
+
+/* Stress of a ply in its own axes for strains (eps_zz, eps_ss, gamma_sz) at a point. [Pa] */
+struct ply_stress {
+    double l, t, lt;
+};
+struct ply_stress ply_stress_of(const struct ply *ply, const double strain[3]);
 
 /* Builds the laminate. Fails with ST_INVALID when a ply is inadmissible, ST_SINGULAR when the
  * elimination of N_ss, L_ss has no solution. */

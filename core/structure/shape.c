@@ -59,6 +59,19 @@ static int walls_of(const struct shape *s, struct shape_point point[LIMIT_POINTS
     return s->n_wall;
 }
 
+int shape_wall_layup(const struct shape *s, int wall)
+{
+    switch (s->type) {
+    case SECTION_STRIP:
+        return 0;
+    case SECTION_BOX:
+        return s->n_layup == BOX_WALLS ? wall : 0;
+    case SECTION_CONTOUR:
+        break;
+    }
+    return s->wall[wall].layup;
+}
+
 int shape_cells(const struct shape *s)
 {
     struct shape_point point[LIMIT_POINTS];

@@ -60,6 +60,9 @@ void shape_check(const struct shape *s, const char *pointer, struct failure_list
 /* Closed cells of the walls: edges - points + 1 of the graph. */
 int shape_cells(const struct shape *s);
 
+/* Layup of a wall (numbered as the laminates of shape_build). */
+int shape_wall_layup(const struct shape *s, int wall);
+
 /* Builds contour and laminates (one per wall, at most LIMIT_WALLS) of a checked shape. */
 MUST_CHECK enum status shape_build(const struct shape *s, struct contour *contour,
                                    struct laminate laminate[LIMIT_WALLS]);

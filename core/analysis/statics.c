@@ -1,0 +1,151 @@
+#include "core/analysis/statics.h"
+
+#include "core/num.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Adds force and moment at z to the resultant about the root's origin. Forces act on the axis. */
+static void add_resultant(double z, const struct beam_load *load, double factor, double force[3],
+                          double moment[3])
+{
+    const double arm[3] = {-z * load->force[1], z * load->force[0], 0.0}; /* z e_z x F */
+    for (int d = 0; d < 3; d++) {
+        force[d] += factor * load->force[d];
+        moment[d] += factor * (load->moment[d] + arm[d]);
+    }
+}
+
+/* Weight of the beam: f = m a on the freedoms. */
+static void add_gravity(const struct model *m, double *f)
+{
+    for (int d = 0; d < 3; d++) {
+        for (int i = 0; i < m->beam.n_dof; i++) {
+            f[i] += m->def.beam.gravity[d] * m->beam.inertia[num_at(i, d, m->beam.n_dof)];
+        }
+    }
+}
+
+static void assemble_loads(const struct model *m, double *f, double force[3], double moment[3])
+{
+    const struct loads_def *l = &m->def.loads;
+    for (int i = 0; i < l->n_point; i++) {
+        beam_add_point_load(&m->beam, l->point[i].z, &l->point[i].load, f);
+        add_resultant(l->point[i].z, &l->point[i].load, 1.0, force, moment);
+    }
+    for (int i = 0; i < l->n_line; i++) {
+        const struct line_load_def *p = &l->line[i];
+        beam_add_line_load(&m->beam, p->from, p->to, &p->load, f);
+        add_resultant(0.5 * (p->from + p->to), &p->load, p->to - p->from, force, moment);
+    }
+}
+
+/* Resultant of the weight: the consistent loads of all nodes, that of the root included. */
+static void gravity_resultant(const struct model *m, double force[3], double moment[3])
+{
+    const struct beam *b = &m->beam;
+    for (int node = 0; node <= b->mesh.n_element; node++) {
+        for (int d = 0; d < 3; d++) {
+            double part[BEAM_NODE_FREEDOMS];
+            for (int k = 0; k < BEAM_NODE_FREEDOMS; k++) {
+                const int row = beam_index(b, node, (enum beam_freedom)k);
+                part[k] = m->def.beam.gravity[d] *
+                          (node == 0 ? b->root_inertia[num_at(k, d, BEAM_NODE_FREEDOMS)]
+                                     : b->inertia[num_at(row, d, b->n_dof)]);
+            }
+            const struct beam_load load = {.force = {part[D_U], part[D_V], part[D_W]},
+                                           .moment = {-part[D_DV], part[D_DU], part[D_THETA]}};
+            add_resultant(b->mesh.z[node], &load, 1.0, force, moment);
+        }
+    }
+}
+
+static enum status recover_stress(const struct model *m, const double *x, double z,
+                                  struct stress_result *out)
+{
+    enum { STATES = LIMIT_LAYUPS * LIMIT_PLIES };
+    struct shape *shape = malloc(sizeof *shape);
+    struct ply_state *ply = malloc(STATES * sizeof *ply);
+    if (shape == NULL || ply == NULL) {
+        free(shape);
+        free(ply);
+        return ST_NO_MEMORY;
+    }
+    out->z = z;
+    beam_strain_at(&m->beam, x, z, out->strain);
+    model_shape_at(&m->def.beam, z, shape);
+    const enum status st = static_ply_states(shape, m->beam.shear, out->strain, ply, &out->n_ply);
+    free(shape);
+    out->ply = ply; /* freed with the result, also after a failure */
+    return st;
+}
+
+static void find_critical(struct static_result *r)
+{
+    r->reserve_min = (double)NAN;
+    r->critical_position = r->critical_ply = -1;
+    for (int i = 0; i < r->n_stress; i++) {
+        for (int k = 0; k < r->stress[i].n_ply; k++) {
+            const double reserve = r->stress[i].ply[k].reserve;
+            if (!isnan(reserve) && !(reserve >= r->reserve_min)) {
+                r->reserve_min = reserve;
+                r->critical_position = i;
+                r->critical_ply = k;
+            }
+        }
+    }
+}
+
+enum status statics_run(const struct model *m, struct static_result *out)
+{
+    const struct beam *b = &m->beam;
+    assert(b->n_dof > 0);
+    struct static_result r = {.n_stress = 0};
+    double force[3] = {0}, moment[3] = {0};
+    double *f = calloc(2 * (size_t)b->n_dof, sizeof *f);
+    if (f == NULL) {
+        return ST_NO_MEMORY;
+    }
+    double *x = f + b->n_dof;
+    assemble_loads(m, f, force, moment);
+    add_gravity(m, f);
+    gravity_resultant(m, force, moment);
+    enum status st = static_solve(b, f, x);
+    if (st == ST_OK && !num_all_finite(b->n_dof, x)) {
+        st = ST_NOT_FINITE;
+    }
+    if (st != ST_OK) {
+        goto out;
+    }
+    r.tip = beam_motion_at(b, x, b->length);
+    for (int i = 0; i < STATIC_SAMPLES; i++) {
+        const double z = b->length * i / (STATIC_SAMPLES - 1);
+        r.span[i] = (struct static_sample){.z = z, .motion = beam_motion_at(b, x, z)};
+    }
+    for (int d = 0; d < 3; d++) {
+        r.reaction_force[d] = -force[d];
+        r.reaction_moment[d] = -moment[d];
+    }
+    for (int i = 0; i < m->def.output.n_stress && st == ST_OK; i++) {
+        st = recover_stress(m, x, m->def.output.stress[i], &r.stress[i]);
+        r.n_stress++;
+    }
+    find_critical(&r);
+out:
+    free(f);
+    if (st != ST_OK) {
+        statics_done(&r);
+        return st;
+    }
+    *out = r;
+    return ST_OK;
+}
+
+void statics_done(struct static_result *r)
+{
+    for (int i = 0; i < r->n_stress; i++) {
+        free(r->stress[i].ply);
+    }
+    *r = (struct static_result){.n_stress = 0};
+}
