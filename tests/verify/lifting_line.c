@@ -26,15 +26,16 @@ static double lift_slope(const struct wing *g, int n, double *cl)
     struct polar *polar = NULL;
     struct lifting_line ll;
     struct lifting_line_state state;
-    double alpha[STATIONS_MAX], plunge[STATIONS_MAX] = {0};
+    double alpha[STATIONS_MAX], chord[STATIONS_MAX], plunge[STATIONS_MAX] = {0};
     assert(n <= STATIONS_MAX);
-    if (polar_create(&def, &polar) != ST_OK ||
-        lifting_line_init(n, g->length, g->chord, g->walls, g->width, 1e-12, 50, &ll) != ST_OK ||
-        lifting_line_state_init(n, &state) != ST_OK) {
-        abort();
-    }
     for (int i = 0; i < n; i++) {
         alpha[i] = angle;
+        chord[i] = g->chord;
+    }
+    if (polar_create(&def, &polar) != ST_OK ||
+        lifting_line_init(n, g->length, chord, g->walls, g->width, 1e-12, 50, &ll) != ST_OK ||
+        lifting_line_state_init(n, &state) != ST_OK) {
+        abort();
     }
     const struct lifting_line_report r = lifting_line_solve(&ll, polar, alpha, plunge, &state);
     double sum = r.converged ? 0.0 : (double)NAN;
@@ -138,9 +139,12 @@ static void independence(struct check_list *list)
     struct polar *polar = NULL;
     struct lifting_line ll;
     struct lifting_line_state cold, warm;
-    double alpha[N], other[N], plunge[N] = {0};
+    double alpha[N], other[N], chord[N], plunge[N] = {0};
+    for (int i = 0; i < N; i++) {
+        chord[i] = 0.1;
+    }
     if (polar_create(&def, &polar) != ST_OK ||
-        lifting_line_init(N, 0.37, 0.1, WALLS_ROOT, 0.0, tolerance, 50, &ll) != ST_OK ||
+        lifting_line_init(N, 0.37, chord, WALLS_ROOT, 0.0, tolerance, 50, &ll) != ST_OK ||
         lifting_line_state_init(N, &cold) != ST_OK || lifting_line_state_init(N, &warm) != ST_OK) {
         abort();
     }

@@ -1,0 +1,208 @@
+/* The solver of the lifting line; its numbers are verified in tests/verify/lifting_line.c. */
+#include "core/aero/lifting_line.h"
+#include "core/la.h"
+#include "core/num.h"
+#include "tests/support/fixture.h"
+#include "tests/support/unit.h"
+
+#include <string.h>
+
+enum { N = 16 };
+
+struct setting {
+    struct polar *polar;
+    struct lifting_line ll;
+    struct lifting_line_state state;
+};
+
+static void fill(double value, double *x)
+{
+    for (int i = 0; i < N; i++) {
+        x[i] = value;
+    }
+}
+
+static void start(const struct polar_def *def, double tolerance, int iterations, struct setting *s)
+{
+    assert_ok(polar_create(def, &s->polar));
+    double chord[N];
+    fill(0.1, chord);
+    assert_ok(lifting_line_init(N, 0.37, chord, WALLS_ROOT, 0.0, tolerance, iterations, &s->ll));
+    assert_ok(lifting_line_state_init(N, &s->state));
+}
+
+static void finish(struct setting *s)
+{
+    lifting_line_state_done(&s->state);
+    lifting_line_done(&s->ll);
+    polar_destroy(s->polar);
+}
+
+/* Largest |c_l - C_l(alpha_g - B c_l)|, computed from outside. */
+static double residual(const struct setting *s, const double *alpha, const double *plunge)
+{
+    double largest = 0.0;
+    for (int i = 0; i < N; i++) {
+        double induced = 0.0;
+        for (int j = 0; j < N; j++) {
+            induced += s->ll.induced[num_at(i, j, N)] * s->state.cl[j];
+        }
+        assert_near_abs(s->state.induced[i], induced, 1e-14);
+        assert_near_abs(s->state.alpha[i], alpha[i] - induced, 1e-14);
+        const double cl = polar_at(s->polar, alpha[i] - induced, plunge[i]).cl;
+        largest = fmax(largest, fabs(s->state.cl[i] - cl));
+    }
+    return largest;
+}
+
+/* Random twisted wings, partly beyond the table: a cold start finds every solution; a start
+ * continued from quite other angles may fail, but the report says so. */
+static void the_report_is_true(void **state)
+{
+    (void)state;
+    struct polar_def def = fixture_linear_polar(2.0 * NUM_PI, 0.0, 0.0, 0.3);
+    struct setting s, warm;
+    double alpha[N], plunge[N];
+    uint64_t seed = 2;
+    start(&def, 1e-10, 50, &warm);
+    fill(0.0, plunge);
+    for (int k = 0; k < 40; k++) {
+        const double root = 0.7 * fixture_uniform(&seed) - 0.35;
+        const double tip = 0.7 * fixture_uniform(&seed) - 0.35;
+        for (int i = 0; i < N; i++) {
+            alpha[i] = root + (tip - root) * (i + 0.5) / N;
+        }
+        start(&def, 1e-10, 50, &s);
+        struct lifting_line_report r = lifting_line_solve(&s.ll, s.polar, alpha, plunge, &s.state);
+        assert_true(r.converged);
+        assert_true(r.residual <= 1e-10);
+        assert_near_abs(residual(&s, alpha, plunge), r.residual, 1e-13);
+        finish(&s);
+        r = lifting_line_solve(&warm.ll, warm.polar, alpha, plunge, &warm.state);
+        assert_int_equal(r.converged, r.residual <= 1e-10);
+        assert_near_abs(residual(&warm, alpha, plunge), r.residual, 1e-12);
+    }
+    finish(&warm);
+    polar_def_done(&def);
+}
+
+/* A linear polar needs one step; the warm start of the same state none. */
+static void linear_problems_take_one_step(void **state)
+{
+    (void)state;
+    struct polar_def def = fixture_linear_polar(5.0, 0.0, 0.0, 1.0);
+    struct setting s;
+    double alpha[N], plunge[N];
+    start(&def, 1e-10, 50, &s);
+    fill(0.1, alpha);
+    fill(0.0, plunge);
+    struct lifting_line_report r = lifting_line_solve(&s.ll, s.polar, alpha, plunge, &s.state);
+    assert_true(r.converged);
+    assert_int_equal(r.iterations, 1);
+    r = lifting_line_solve(&s.ll, s.polar, alpha, plunge, &s.state);
+    assert_true(r.converged);
+    assert_int_equal(r.iterations, 0);
+    finish(&s);
+    polar_def_done(&def);
+}
+
+/* Stall: a polar that falls steeply. Either the residual is below the tolerance or the report says
+ * that it is not; the state stays finite and usable. */
+static void stall_is_solved_or_said(void **state)
+{
+    (void)state;
+    enum { ANGLES = 5 };
+    double alpha_axis[ANGLES] = {-0.5, -0.1, 0.1, 0.2, 0.5}, plunge_axis[1] = {0.0};
+    double cl[ANGLES] = {-0.3, -0.6, 0.6, 0.3, 0.25}, zero[ANGLES] = {0};
+    const struct polar_def def = {.n_alpha = ANGLES,
+                                  .n_plunge = 1,
+                                  .alpha = alpha_axis,
+                                  .plunge = plunge_axis,
+                                  .cl = cl,
+                                  .cd = zero,
+                                  .cm = zero,
+                                  .linear_from = -0.1,
+                                  .linear_to = 0.1};
+    struct setting s;
+    double alpha[N], plunge[N];
+    int solved = 0;
+    start(&def, 1e-9, 50, &s);
+    fill(0.0, plunge);
+    for (double angle = 0.0; angle < 0.45; angle += 0.003) {
+        fill(angle, alpha);
+        const struct lifting_line_report r =
+            lifting_line_solve(&s.ll, s.polar, alpha, plunge, &s.state);
+        const double left = residual(&s, alpha, plunge);
+        assert_near_abs(left, r.residual, 1e-12);
+        assert_int_equal(r.converged, left <= 1e-9);
+        assert_true(r.iterations <= 50);
+        assert_true(num_all_finite(N, s.state.cl));
+        solved += r.converged;
+    }
+    assert_true(solved > 75); /* below stall and far beyond it there is no excuse */
+    finish(&s);
+}
+
+static void no_iterations_left(void **state)
+{
+    (void)state;
+    struct polar_def def = fixture_linear_polar(5.0, 0.0, 0.0, 1.0);
+    struct setting s;
+    double alpha[N], plunge[N];
+    start(&def, 1e-300, 3, &s);
+    fill(0.1, alpha);
+    fill(0.0, plunge);
+    const struct lifting_line_report r =
+        lifting_line_solve(&s.ll, s.polar, alpha, plunge, &s.state);
+    assert_true(r.iterations <= 3);
+    assert_true(r.residual < 1e-13);
+    assert_int_equal(r.converged, r.residual <= 1e-300);
+    finish(&s);
+    polar_def_done(&def);
+}
+
+/* An angle that is not a number is held at the border of the table like any other outside it; the
+ * solver ends and the next solutions are those of a fresh state. */
+static void nan_does_not_stay(void **state)
+{
+    (void)state;
+    struct polar_def def = fixture_linear_polar(5.0, 0.0, 0.0, 1.0);
+    struct setting s, fresh;
+    double alpha[N], plunge[N];
+    start(&def, 1e-10, 50, &s);
+    start(&def, 1e-10, 50, &fresh);
+    fill(0.1, alpha);
+    fill(0.0, plunge);
+    (void)lifting_line_solve(&s.ll, s.polar, alpha, plunge, &s.state);
+    alpha[3] = (double)NAN;
+    (void)lifting_line_solve(&s.ll, s.polar, alpha, plunge, &s.state);
+    assert_true(isnan(s.state.alpha[3]));
+    fill(0.2, alpha);
+    for (int k = 0; k < 4; k++) {
+        assert_true(lifting_line_solve(&s.ll, s.polar, alpha, plunge, &s.state).converged);
+    }
+    (void)lifting_line_solve(&fresh.ll, fresh.polar, alpha, plunge, &fresh.state);
+    for (int i = 0; i < N; i++) {
+        assert_near_abs(s.state.cl[i], fresh.state.cl[i], 1e-9);
+    }
+    finish(&fresh);
+    finish(&s);
+    polar_def_done(&def);
+}
+
+static int setup(void **state)
+{
+    (void)state;
+    la_process_init();
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_report_is_true),      cmocka_unit_test(linear_problems_take_one_step),
+        cmocka_unit_test(stall_is_solved_or_said), cmocka_unit_test(no_iterations_left),
+        cmocka_unit_test(nan_does_not_stay),
+    };
+    return cmocka_run_group_tests(tests, setup, NULL);
+}

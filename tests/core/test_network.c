@@ -1,0 +1,255 @@
+#include "core/aero/network.h"
+#include "core/aero/tanh_lanes.h"
+#include "core/num.h"
+#include "tests/support/fixture.h"
+#include "tests/support/unit.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { STATIONS_MAX = 37 };
+
+/* The network by its definition, in scalar libm. */
+static double plain(const struct network_def *d, const double *x, int o)
+{
+    double sum = d->b2[o];
+    for (int j = 0; j < d->n_hidden; j++) {
+        double v = d->b1[j];
+        for (int i = 0; i < d->n_in; i++) {
+            v += d->w1[i + d->n_in * j] * (x[i] - d->in_offset[i]) / d->in_scale[i];
+        }
+        sum += d->w2[j + d->n_hidden * o] * tanh(v);
+    }
+    return sum * d->out_scale[o] + d->out_offset[o];
+}
+
+static void random_inputs(int n, uint64_t seed, double *x)
+{
+    static const double size[NET_IN_COUNT] = {0.3, 0.2, 0.1, 0.05, 0.1};
+    for (int i = 0; i < NET_IN_COUNT; i++) {
+        for (int s = 0; s < n; s++) {
+            x[i * n + s] = size[i] * fixture_normal(&seed);
+        }
+    }
+}
+
+/* Every number of stations, so every number of idle lanes; sizes around the lanes. */
+static void agrees_with_the_definition(void **state)
+{
+    (void)state;
+    static const int hidden[] = {1, 7, 50};
+    for (size_t k = 0; k < sizeof hidden / sizeof hidden[0]; k++) {
+        struct network_def d = fixture_network(hidden[k], 0.7, 40 + k);
+        struct network *net = NULL;
+        d.in_offset[1] = 0.03;
+        d.out_offset[0] = -0.2;
+        assert_ok(network_create(&d, &net));
+        for (int n = 1; n <= STATIONS_MAX; n++) {
+            double x[NET_IN_COUNT * STATIONS_MAX], y[NET_OUT_COUNT * STATIONS_MAX];
+            random_inputs(n, (uint64_t)n, x);
+            memset(y, 0x55, sizeof y);
+            assert_int_equal(network_eval(net, n, x, y), 0);
+            for (int s = 0; s < n; s++) {
+                double one[LIMIT_NET_INPUTS];
+                for (int i = 0; i < d.n_in; i++) {
+                    one[i] = x[(int)d.input[i] * n + s];
+                }
+                assert_near_abs(y[NET_OUT_CL * n + s], plain(&d, one, 0), 1e-13);
+                assert_near_abs(y[NET_OUT_CM * n + s], plain(&d, one, 1), 1e-13);
+                assert_true(y[NET_OUT_CD * n + s] == 0.0); /* not an output of this net */
+            }
+        }
+        network_destroy(net);
+        network_def_done(&d);
+    }
+}
+
+/* The same station gives the same bits wherever it stands and whatever its neighbours are. */
+static void a_station_does_not_see_its_neighbours(void **state)
+{
+    (void)state;
+    struct network_def d = fixture_network(50, 1.0, 3);
+    struct network *net = NULL;
+    double x[NET_IN_COUNT * STATIONS_MAX], y[NET_OUT_COUNT * STATIONS_MAX];
+    assert_ok(network_create(&d, &net));
+    random_inputs(STATIONS_MAX, 9, x);
+    (void)network_eval(net, STATIONS_MAX, x, y);
+    for (int s = 0; s < STATIONS_MAX; s++) {
+        double one[NET_IN_COUNT], out[NET_OUT_COUNT];
+        for (int i = 0; i < NET_IN_COUNT; i++) {
+            one[i] = x[i * STATIONS_MAX + s];
+        }
+        (void)network_eval(net, 1, one, out);
+        assert_memory_equal(&out[NET_OUT_CL], &y[NET_OUT_CL * STATIONS_MAX + s], sizeof out[0]);
+        assert_memory_equal(&out[NET_OUT_CM], &y[NET_OUT_CM * STATIONS_MAX + s], sizeof out[0]);
+    }
+    network_destroy(net);
+    network_def_done(&d);
+}
+
+/* Inputs and outputs in any order, three outputs, the fifth input. */
+static void any_order_of_inputs_and_outputs(void **state)
+{
+    (void)state;
+    enum { N = 11 };
+    double w1[2 * 3] = {1.0, -2.0, 0.5, 0.25, -1.0, 3.0}, b1[3] = {0.1, -0.2, 0.3};
+    double w2[3 * 3] = {1, 2, 3, -1, 0.5, 0.25, 4, -4, 1}, b2[3] = {0.0, 0.1, -0.1};
+    const struct network_def d = {.n_in = 2,
+                                  .n_hidden = 3,
+                                  .n_out = 3,
+                                  .input = {NET_IN_PLUNGE_RATE, NET_IN_MEAN_ALPHA},
+                                  .output = {NET_OUT_CD, NET_OUT_CL, NET_OUT_CM},
+                                  .in_scale = {2.0, 0.5},
+                                  .out_scale = {1.0, 2.0, 3.0},
+                                  .hull_min = {-100.0, -100.0},
+                                  .hull_max = {100.0, 100.0},
+                                  .w1 = w1,
+                                  .b1 = b1,
+                                  .w2 = w2,
+                                  .b2 = b2};
+    struct network *net = NULL;
+    double x[NET_IN_COUNT * N], y[NET_OUT_COUNT * N];
+    assert_ok(network_create(&d, &net));
+    random_inputs(N, 5, x);
+    (void)network_eval(net, N, x, y);
+    for (int s = 0; s < N; s++) {
+        const double one[2] = {x[NET_IN_PLUNGE_RATE * N + s], x[NET_IN_MEAN_ALPHA * N + s]};
+        assert_near_abs(y[NET_OUT_CD * N + s], plain(&d, one, 0), 1e-13);
+        assert_near_abs(y[NET_OUT_CL * N + s], plain(&d, one, 1), 1e-13);
+        assert_near_abs(y[NET_OUT_CM * N + s], plain(&d, one, 2), 1e-13);
+    }
+    network_destroy(net);
+}
+
+static void stations_outside_the_hull_are_counted_once(void **state)
+{
+    (void)state;
+    enum { N = 11 };
+    struct network_def d = fixture_network(5, 1.0, 3);
+    struct network *net = NULL;
+    double x[NET_IN_COUNT * N] = {0}, y[NET_OUT_COUNT * N];
+    d.hull_min[0] = -0.1;
+    d.hull_max[0] = 0.2;
+    d.hull_min[2] = -1.0;
+    d.hull_max[2] = 1.0;
+    assert_ok(network_create(&d, &net));
+    assert_int_equal(network_eval(net, N, x, y), 0);
+    x[NET_IN_MEAN_ALPHA * N + 0] = 0.2; /* the border belongs to the hull */
+    x[NET_IN_MEAN_ALPHA * N + 1] = -0.1;
+    assert_int_equal(network_eval(net, N, x, y), 0);
+    x[NET_IN_MEAN_ALPHA * N + 0] = 0.2000001;
+    x[NET_IN_ALPHA_RATE * N + 0] = 5.0; /* outside twice, one station */
+    x[NET_IN_ALPHA_RATE * N + 10] = -1.1;
+    assert_int_equal(network_eval(net, N, x, y), 2);
+    x[NET_IN_ALPHA_RATE * N + 8] = (double)NAN; /* the first lane of the last block */
+    assert_int_equal(network_eval(net, N, x, y), 3);
+    x[NET_IN_PLUNGE_RATE * N + 5] = 1e9; /* no input of this net */
+    assert_int_equal(network_eval(net, N, x, y), 3);
+    network_destroy(net);
+    network_def_done(&d);
+}
+
+static double tanh_one(double x)
+{
+    lanes v = {x, x, x, x, x, x, x, x};
+    tanh_lanes(&v);
+    return v[3];
+}
+
+/* Largest errors of tanh_lanes over the whole range against libm in long double. */
+static void tanh_keeps_its_promise(void **state)
+{
+    (void)state;
+    double absolute = 0.0, relative = 0.0;
+    uint64_t seed = 1;
+    for (int i = 0; i < 400000; i++) {
+        const double e = -30.0 + 36.0 * fixture_uniform(&seed); /* 2^-30 .. 2^6 */
+        const double x = (i % 2 == 0 ? 1.0 : -1.0) * exp2(i % 10 == 0 ? e : fmin(e + 26.0, 6.0));
+        const long double exact = tanhl((long double)x);
+        const double error = (double)fabsl((long double)tanh_one(x) - exact);
+        absolute = fmax(absolute, error);
+        relative = fmax(relative, error / (double)fabsl(exact));
+    }
+    print_message("tanh: largest error %.3g absolute, %.3g relative\n", absolute, relative);
+    assert_true(absolute < 4e-16);
+    assert_true(relative < 8e-16);
+}
+
+static void tanh_at_its_corners(void **state)
+{
+    (void)state;
+    assert_true(tanh_one(0.0) == 0.0);
+    assert_true(signbit(tanh_one(-0.0)));
+    assert_true(tanh_one(40.0) == 1.0);
+    assert_true(tanh_one(-1e300) == -1.0);
+    assert_true(tanh_one(HUGE_VAL) == 1.0);
+    assert_true(isnan(tanh_one((double)NAN)));
+    assert_true(tanh_one(5e-324) == 5e-324 || tanh_one(5e-324) == 0.0);
+    /* Each lane its own. */
+    lanes v;
+    for (int l = 0; l < LANES; l++) {
+        v[l] = 0.3 * (l - 3);
+    }
+    tanh_lanes(&v);
+    for (int l = 0; l < LANES; l++) {
+        assert_true(v[l] == tanh_one(0.3 * (l - 3)));
+    }
+}
+
+static void assert_refused(const struct network_def *d, const char *pointer)
+{
+    struct failure_list *list = calloc(1, sizeof *list);
+    network_def_check(d, "/n", list);
+    assert_int_equal(list->count, 1);
+    assert_string_equal(list->item[0].pointer, pointer);
+    free(list);
+}
+
+static void every_fault_of_a_network_is_named(void **state)
+{
+    (void)state;
+    struct network_def d = fixture_network(5, 1.0, 3);
+    struct failure_list *list = calloc(1, sizeof *list);
+    network_def_check(&d, "/n", list);
+    assert_int_equal(list->count, 0);
+    free(list);
+    const struct {
+        double *value;
+        double wrong;
+        const char *pointer;
+    } fault[] = {
+        {&d.in_offset[1], (double)NAN, "/n/input_offset/1"},
+        {&d.in_scale[2], 0.0, "/n/input_scale/2"},
+        {&d.out_offset[0], (double)INFINITY, "/n/output_offset/0"},
+        {&d.out_scale[1], -1.0, "/n/output_scale/1"},
+        {&d.w1[7], (double)NAN, "/n/w1/7"},
+        {&d.b1[4], (double)NAN, "/n/b1/4"},
+        {&d.w2[9], (double)INFINITY, "/n/w2/9"},
+        {&d.b2[1], (double)NAN, "/n/b2/1"},
+        {&d.hull_max[3], -11.0, "/n/hull_max/3"},
+        {&d.hull_min[0], (double)NAN, "/n/hull_max/0"},
+    };
+    for (size_t i = 0; i < sizeof fault / sizeof fault[0]; i++) {
+        const double keep = *fault[i].value;
+        *fault[i].value = fault[i].wrong;
+        assert_refused(&d, fault[i].pointer);
+        *fault[i].value = keep;
+    }
+    network_def_done(&d);
+    assert_null(d.w1);
+    network_def_done(&d);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(agrees_with_the_definition),
+        cmocka_unit_test(a_station_does_not_see_its_neighbours),
+        cmocka_unit_test(any_order_of_inputs_and_outputs),
+        cmocka_unit_test(stations_outside_the_hull_are_counted_once),
+        cmocka_unit_test(tanh_keeps_its_promise),
+        cmocka_unit_test(tanh_at_its_corners),
+        cmocka_unit_test(every_fault_of_a_network_is_named),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
