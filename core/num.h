@@ -7,6 +7,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* C11's CMPLX, which glibc gives gcc only. */
+#define NUM_COMPLEX(re, im) __builtin_complex((double)(re), (double)(im))
+
 #define NUM_PI 3.14159265358979323846
 
 static inline double num_rad(double degrees)

@@ -80,7 +80,7 @@ static double envelope_ratio(const double *y, struct window w, double dt, double
     for (int i = w.from + length / 10; i < w.from + length - length / 10; i += step) {
         double complex sum = 0.0;
         for (int k = 0; k < span; k++) {
-            sum += (y[i + k] - mean) * cexp(CMPLX(0.0, -omega * dt * (i + k - w.from)));
+            sum += (y[i + k] - mean) * cexp(NUM_COMPLEX(0.0, -omega * dt * (i + k - w.from)));
         }
         const double size = cabs(sum), t = dt * (i - w.from);
         if (!(size > 0.0)) {
@@ -138,7 +138,7 @@ static void take_roots(const struct pencil_fit *fit, double dt, int block, doubl
         if (drift || p->omega > 0.999 * nyquist) {
             continue;
         }
-        const double complex lambda = CMPLX(p->sigma, p->omega);
+        const double complex lambda = NUM_COMPLEX(p->sigma, p->omega);
         out->root[out->n_root++] =
             (struct root_result){.frequency_hz = p->omega / (2.0 * NUM_PI),
                                  .ratio = -p->sigma / cabs(lambda),

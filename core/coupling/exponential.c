@@ -1,5 +1,7 @@
 #include "core/coupling/exponential.h"
 
+#include "core/num.h"
+
 #include <assert.h>
 #include <complex.h>
 #include <math.h>
@@ -41,7 +43,7 @@ void exponential_init(int n_mode, const double *omega2, const double *damping, d
         const double omega_d =
             sqrt(omega2[j] - sigma * sigma); /* zeta < 1 is checked in the case */
         assert(omega_d > 0.0);
-        const double complex lambda = CMPLX(sigma, omega_d);
+        const double complex lambda = NUM_COMPLEX(sigma, omega_d);
         const double complex e = cexp(lambda * dt);
         const double c = creal(e), s = cimag(e) / omega_d; /* s: unit impulse response at dt */
         out->p[0][j] = c - sigma * s;
