@@ -59,7 +59,8 @@ static double to_and_fro(const struct march *march)
     const struct record *r = march->record;
     const double *y = record_history(r, HISTORY_TWIST);
     const double period = 2.0 * NUM_PI / march->model->modes.omega[0];
-    const double steps = period / march->model->def.solver.time_step;
+    /* A time step may be longer than the period: two states are needed to see a way at all. */
+    const double steps = fmax(2.0, period / march->model->def.solver.time_step);
     const int from = steps < r->n ? r->n - (int)steps : 0;
     double path = 0.0;
     for (int i = from + 1; i < r->n; i++) {

@@ -69,7 +69,8 @@ static bool must_stop(struct march *march)
         march->stop = STOP_AMPLITUDE;
         return true;
     }
-    if ((double)march->outside_steps > s->outside_max * case_def_steps(&march->model->def)) {
+    /* The initial state counts as well. */
+    if ((double)march->outside_steps > s->outside_max * (case_def_steps(&march->model->def) + 1)) {
         march->stop = STOP_OUTSIDE_POLAR;
         return true;
     }
@@ -83,7 +84,7 @@ enum status march_run(struct march *march, const struct sim_control *control)
     march->stop = STOP_DURATION;
     evaluate_start(march);
     record_push(march->model, w, march->record);
-    while (march->steps < steps && !must_stop(march)) {
+    while (!must_stop(march) && march->steps < steps) {
         if (march->steps % POLL_EVERY == 0 && control != NULL) {
             if (control->cancel != NULL && atomic_load(control->cancel)) {
                 return ST_CANCELLED;
