@@ -5,18 +5,23 @@
 #include <stdio.h>
 #include <string.h>
 
+void section_def_defaults(enum section_type type, struct section_def *out)
+{
+    *out = (struct section_def){
+        .shape = {.type = type,
+                  .n_layup = type == SECTION_CONTOUR ? 0 : 1,
+                  .cells = -1,
+                  .chordwise = CHORDWISE_FREE,
+                  .contour_elements = type == SECTION_STRIP ? 16 : 8},
+        .shear = SHEAR_CONDENSED,
+    };
+}
+
 void case_def_defaults(struct case_def *def)
 {
     *def = (struct case_def){
         .kind = CASE_SIMULATION,
-        .beam = {.elements = 16,
-                 .root_warping = ROOT_WARPING_RESTRAINED,
-                 .section = {.shape = {.type = SECTION_STRIP,
-                                       .n_layup = 1,
-                                       .cells = -1,
-                                       .chordwise = CHORDWISE_FREE,
-                                       .contour_elements = 16},
-                             .shear = SHEAR_CONDENSED}},
+        .beam = {.elements = 16, .root_warping = ROOT_WARPING_RESTRAINED},
         .flow = {.density = 1.225, .kinematic_viscosity = 1.5e-5},
         .aero = {.dynamic = DYNAMIC_NONE,
                  .lifting_line = true,
@@ -39,6 +44,7 @@ void case_def_defaults(struct case_def *def)
                    .mean_window = 1.0,
                    .modal_window = 0.2},
     };
+    section_def_defaults(SECTION_STRIP, &def->beam.section);
 }
 
 double section_def_chord(const struct section_def *s)
@@ -175,6 +181,15 @@ static void check_section(const struct section_def *section, const char *pointer
     for (int l = 0; l < s->n_layup; l++) {
         layup_pointer(s, pointer, l, layup, sizeof layup);
         check_layup(&s->layup[l], layup, out);
+    }
+    const int walls = strip ? 1 : (s->type == SECTION_BOX ? BOX_WALLS : s->n_wall);
+    if (out->total == before && walls * s->contour_elements > LIMIT_SECTION_ELEMENTS) {
+        char expected[64], got[64];
+        (void)snprintf(expected, sizeof expected, "at most %d", LIMIT_SECTION_ELEMENTS / walls);
+        (void)snprintf(got, sizeof got, "%d", s->contour_elements);
+        failure_set(failure_add(out), ST_LIMIT, elements, "too_many_elements", expected, got,
+                    "%d walls would have more than %d contour elements", walls,
+                    LIMIT_SECTION_ELEMENTS);
     }
     if (out->total == before) {
         shape_check(s, pointer, out);

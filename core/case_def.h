@@ -49,6 +49,9 @@ struct section_def {
     enum shear_model shear; /* of the whole beam: that of its first section counts */
 };
 
+/* Fills the defaults of a section of this type. */
+void section_def_defaults(enum section_type type, struct section_def *out);
+
 /* Aerodynamic chord and overall height (strip: thickness) of a section [m]. */
 double section_def_chord(const struct section_def *s);
 double section_def_height(const struct section_def *s);

@@ -16,7 +16,8 @@ enum {
     LIMIT_MASSES = 16,            /* lumped masses of a beam */
     LIMIT_ELEMENTS = 256,         /* beam elements = aerodynamic stations */
     LIMIT_MODES = 64,             /* modes kept */
-    LIMIT_CONTOUR_ELEMENTS = 256, /* elements along the wall contour of a section */
+    LIMIT_CONTOUR_ELEMENTS = 256, /* elements along one wall of a section */
+    LIMIT_SECTION_ELEMENTS = 512, /* elements of all walls of a section */
     LIMIT_POLAR_ANGLES = 2048,
     LIMIT_POLAR_PLUNGES = 64,
     LIMIT_NET_INPUTS = 16,

@@ -74,7 +74,7 @@ enum status sim_create(const struct case_def *def, struct sim **out, struct fail
     return ST_OK;
 }
 
-static void report_section(const struct model *m, struct section_result *out)
+static enum status report_section(const struct model *m, struct section_result *out)
 {
     const struct section_summary *s = &m->section_summary;
     _Static_assert((int)SECTION_STRAINS == (int)SECTION_STRAIN_COUNT, "same strains");
@@ -93,6 +93,7 @@ static void report_section(const struct model *m, struct section_result *out)
     /* Upward load bends up (v'' > 0, phi' < 0); with no torque theta' = bend_twist v''/GJ. */
     const double relative = s->bend_twist / sqrt(s->ei_flap * s->gj);
     out->wash = fabs(relative) < 1e-9 ? WASH_NONE : (relative > 0.0 ? WASH_IN : WASH_OUT);
+    return warping_line(&beam_def_root(&m->def.beam)->shape, out->warping, &out->n_warping);
 }
 
 static enum mode_label label_of(const double share[MODE_SHARES])
@@ -318,11 +319,15 @@ static enum status run_static(struct sim *s, struct failure *fail)
 enum status sim_run(struct sim *sim, const struct sim_control *control, struct failure *fail)
 {
     const enum case_kind kind = sim->model.def.kind;
-    report_section(&sim->model, &sim->result.section);
+    enum status st = report_section(&sim->model, &sim->result.section);
+    if (st != ST_OK) {
+        failure_set(fail, st, "/beam", status_name(st), NULL, NULL,
+                    "the warping function could not be computed: %s", status_text(st));
+        return st;
+    }
     if (kind == CASE_MODES || kind == CASE_SIMULATION) {
         report_modes(&sim->model, &sim->result);
     }
-    enum status st = ST_OK;
     if (kind == CASE_SIMULATION) {
         st = run_simulation(sim, control, fail);
     } else if (kind == CASE_STATIC) {

@@ -11,6 +11,7 @@
 #include "core/analysis/statics.h"
 #include "core/analysis/verdict.h"
 #include "core/coupling/march.h"
+#include "core/structure/warping_line.h"
 
 struct sim;
 
@@ -37,6 +38,8 @@ struct section_result {
     double thickness;       /* overall: of the wall of a strip, else the height [m] */
     struct centres centres;
     int cells; /* closed ones */
+    int n_warping;
+    struct warping_point warping[WARPING_POINTS]; /* along the walls, of classic torsion */
     /* With axial force and the other curvatures free: [N m^2] */
     double ei_flap, ei_lag, gj;
     double bend_twist; /* flap curvature - twist rate coupling, axial force free [N m^2] */

@@ -17,14 +17,28 @@ static double trailing(double y, double y0, double period)
     return 1.0 / (y - y0);
 }
 
+/* Zeroed and aligned for the kernels; n a multiple of LANES. */
+static double *aligned_zeros(size_t n)
+{
+    double *x = aligned_alloc(64, n * sizeof *x);
+    if (x != NULL) {
+        memset(x, 0, n * sizeof *x);
+    }
+    return x;
+}
+
 enum status lifting_line_init(int n, double length, const double *chord, enum wall_images walls,
                               double width, double tolerance, int iterations_max,
                               struct lifting_line *out)
 {
     assert(n >= 1);
     assert(walls != WALLS_ROOT_AND_FAR || width > length);
-    struct lifting_line ll = {.n = n, .tolerance = tolerance, .iterations_max = iterations_max};
-    ll.induced = malloc((size_t)n * (size_t)n * sizeof *ll.induced);
+    struct lifting_line ll = {.n = n,
+                              .tolerance = tolerance,
+                              .iterations_max = iterations_max,
+                              .rows = simd_padded(n),
+                              .multiply = simd_gemv(simd_level_of_machine())};
+    ll.induced = aligned_zeros((size_t)ll.rows * (size_t)n);
     if (ll.induced == NULL) {
         return ST_NO_MEMORY;
     }
@@ -39,7 +53,7 @@ enum status lifting_line_init(int n, double length, const double *chord, enum wa
                 sum += trailing(y, -right, period) - trailing(y, -left, period);
             }
             /* w/V = Gamma/(4 pi V) sum with Gamma = V c c_l / 2 of element j. */
-            ll.induced[num_at(i, j, n)] = chord[j] * sum / (8.0 * NUM_PI);
+            ll.induced[num_at(i, j, ll.rows)] = chord[j] * sum / (8.0 * NUM_PI);
         }
     }
     *out = ll;
@@ -54,23 +68,25 @@ void lifting_line_done(struct lifting_line *ll)
 
 enum status lifting_line_state_init(int n, struct lifting_line_state *out)
 {
-    enum { VECTORS = 9 };
-    const size_t vector = (size_t)n, matrix = vector * vector;
+    enum { VECTORS = 10 };
+    const size_t rows = (size_t)simd_padded(n), dense = (size_t)n * (size_t)n;
+    const size_t total = (VECTORS + (size_t)n) * rows + 2 * dense;
     struct lifting_line_state s = {.n = n};
-    s.block = calloc(VECTORS * vector + 2 * matrix, sizeof *s.block);
-    s.pivot = calloc(vector, sizeof *s.pivot);
+    s.block = aligned_zeros((total + LANES - 1) / LANES * LANES);
+    s.pivot = calloc((size_t)n, sizeof *s.pivot);
     if (s.block == NULL || s.pivot == NULL) {
         free(s.block);
         free(s.pivot);
         return ST_NO_MEMORY;
     }
     double **const array[VECTORS] = {&s.cl,    &s.alpha, &s.induced, &s.previous, &s.older,
-                                     &s.trial, &s.table, &s.slope,   &s.residual};
+                                     &s.trial, &s.table, &s.slope,   &s.residual, &s.step};
     for (int i = 0; i < VECTORS; i++) {
-        *array[i] = s.block + (size_t)i * vector;
+        *array[i] = s.block + (size_t)i * rows;
     }
-    s.inverse = s.block + VECTORS * vector;
-    s.work = s.inverse + matrix;
+    s.inverse = s.block + VECTORS * rows;
+    s.dense = s.inverse + rows * (size_t)n;
+    s.work = s.dense + dense;
     *out = s;
     return ST_OK;
 }
@@ -82,25 +98,11 @@ void lifting_line_state_done(struct lifting_line_state *s)
     *s = (struct lifting_line_state){0};
 }
 
-/* y = a x, column by column: the compiler vectorises over the rows. */
-static void multiply(int n, const double *restrict a, const double *restrict x, double *restrict y)
-{
-    for (int i = 0; i < n; i++) {
-        y[i] = a[i] * x[0];
-    }
-    for (int j = 1; j < n; j++) {
-        const double *restrict column = a + (size_t)n * (size_t)j;
-        for (int i = 0; i < n; i++) {
-            y[i] += column[i] * x[j];
-        }
-    }
-}
-
 /* Residual c_l - C_l(alpha_g - B c_l) of s->cl; fills induced, alpha, table, slope, residual. */
 static double evaluate(const struct lifting_line *ll, const struct polar *p, const double *alpha_g,
                        const double *plunge, struct lifting_line_state *s)
 {
-    multiply(s->n, ll->induced, s->cl, s->induced);
+    ll->multiply(ll->rows, s->n, ll->induced, s->cl, s->induced);
     for (int i = 0; i < s->n; i++) {
         s->alpha[i] = alpha_g[i] - s->induced[i];
     }
@@ -121,11 +123,15 @@ static bool factor(const struct lifting_line *ll, struct lifting_line_state *s)
     const int n = s->n;
     for (int j = 0; j < n; j++) {
         for (int i = 0; i < n; i++) {
-            const ptrdiff_t k = num_at(i, j, n);
-            s->inverse[k] = (i == j ? 1.0 : 0.0) + s->slope[i] * ll->induced[k];
+            s->dense[num_at(i, j, n)] =
+                (i == j ? 1.0 : 0.0) + s->slope[i] * ll->induced[num_at(i, j, ll->rows)];
         }
     }
-    s->factored = la_inverse_work(n, s->inverse, s->pivot, s->work) == ST_OK;
+    s->factored = la_inverse_work(n, s->dense, s->pivot, s->work) == ST_OK;
+    for (int j = 0; j < n && s->factored; j++) {
+        memcpy(s->inverse + num_at(0, j, ll->rows), s->dense + num_at(0, j, n),
+               (size_t)n * sizeof *s->inverse);
+    }
     return s->factored;
 }
 
@@ -137,13 +143,12 @@ static double damped_step(const struct lifting_line *ll, const struct polar *p,
 {
     enum { HALVINGS = 6 };
     const size_t bytes = (size_t)s->n * sizeof *s->cl;
-    double *const step = s->work; /* free between factorisations */
-    multiply(s->n, s->inverse, s->residual, step);
+    ll->multiply(ll->rows, s->n, s->inverse, s->residual, s->step);
     memcpy(s->trial, s->cl, bytes);
     double scale = 1.0;
     for (int k = 0; k <= HALVINGS; k++, scale *= 0.5) {
         for (int i = 0; i < s->n; i++) {
-            s->cl[i] = s->trial[i] - scale * step[i];
+            s->cl[i] = s->trial[i] - scale * s->step[i];
         }
         const double after = evaluate(ll, p, alpha_g, plunge, s);
         if (after < before) {

@@ -8,6 +8,7 @@
 #define AEROM_CORE_AERO_LIFTING_LINE_H
 
 #include "core/aero/polar.h"
+#include "core/simd.h"
 
 /* Which walls act as mirrors: none (a free wing tip at the root), the clamped root, or the root and
  * the far side wall of a channel. */
@@ -17,7 +18,9 @@ struct lifting_line {
     int n;            /* stations = elements */
     double tolerance; /* largest |residual| in c_l */
     int iterations_max;
-    double *induced; /* B: induced angle w_i/V [rad] per unit c_l (n x n), column-major */
+    int rows;        /* n padded to whole lanes */
+    double *induced; /* B: induced angle w_i/V [rad] per unit c_l (rows x n), column-major */
+    simd_gemv_fn multiply;
 };
 
 /* length [m]; chord [m] of each element (n); width [m] is the distance of the far wall from the
@@ -37,11 +40,13 @@ struct lifting_line_state {
     double *induced;                          /* induced angle w_i/V [rad]                   (n) */
     double *previous, *older;                 /* solutions one and two calls earlier     (n each) */
     double *trial, *table, *slope, *residual; /* scratch                 (n each) */
-    double *inverse; /* inverse Jacobian                            (n x n) */
-    double *work;    /* scratch of the inversion                    (n x n) */
-    int *pivot;      /* (n) */
+    double *step;                             /* Newton step                         (rows) */
+    double *inverse;                          /* inverse Jacobian, rows padded as B  (rows x n) */
+    double *dense, *work;                     /* inversion                           (n x n each) */
+    int *pivot;                               /* (n) */
 };
 
+/* The vectors above are padded to whole lanes. */
 MUST_CHECK enum status lifting_line_state_init(int n, struct lifting_line_state *out);
 void lifting_line_state_done(struct lifting_line_state *s);
 

@@ -110,32 +110,18 @@ static void kernel_portable(const struct network *net, const lanes *x, lanes *y)
     evaluate_block(net, x, y);
 }
 
-#if defined(__x86_64__)
-__attribute__((target("avx2"))) static void kernel_avx2(const struct network *net, const lanes *x,
-                                                        lanes *y)
+SIMD_TARGET_AVX2 static void kernel_avx2(const struct network *net, const lanes *x, lanes *y)
 {
     evaluate_block(net, x, y);
 }
 
-__attribute__((target("avx512f,avx512dq"))) static void kernel_avx512(const struct network *net,
-                                                                      const lanes *x, lanes *y)
+SIMD_TARGET_AVX512 static void kernel_avx512(const struct network *net, const lanes *x, lanes *y)
 {
     evaluate_block(net, x, y);
 }
-#endif
 
-static network_kernel_fn choose_kernel(void)
-{
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) {
-        return kernel_avx512;
-    }
-    if (__builtin_cpu_supports("avx2")) {
-        return kernel_avx2;
-    }
-#endif
-    return kernel_portable;
-}
+static const network_kernel_fn kernel_of_level[SIMD_LEVELS] = {kernel_portable, kernel_avx2,
+                                                               kernel_avx512};
 
 enum status network_create(const struct network_def *def, struct network **out)
 {
@@ -156,7 +142,7 @@ enum status network_create(const struct network_def *def, struct network **out)
     net->n_in = def->n_in;
     net->n_hidden = def->n_hidden;
     net->n_out = def->n_out;
-    net->kernel = choose_kernel();
+    net->kernel = kernel_of_level[simd_level_of_machine()];
     for (int i = 0; i < def->n_in; i++) {
         net->input[i] = def->input[i];
         net->in_offset[i] = def->in_offset[i];

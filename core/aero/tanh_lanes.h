@@ -8,10 +8,10 @@
 #ifndef AEROM_CORE_AERO_TANH_LANES_H
 #define AEROM_CORE_AERO_TANH_LANES_H
 
+#include "core/simd.h"
+
 #include <stdint.h>
 
-enum { LANES = 8 };
-typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 typedef int64_t lanes_bits __attribute__((vector_size(LANES * sizeof(int64_t))));
 
 /* In place; by pointer, since passing wide vectors by value depends on the instruction set. */

@@ -3,6 +3,7 @@
 #include "core/num.h"
 
 #include <assert.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -66,6 +67,50 @@ static enum status build_section(struct model *m)
     }
     if (st == ST_OK) {
         st = centres_find(&m->section, &m->centres);
+    }
+    return st;
+}
+
+static enum status try_section(const struct shape *given, const char *pointer,
+                               struct failure_list *out)
+{
+    enum { COARSE = 2 }; /* elements a wall: regular there is regular in any mesh */
+    struct section section;
+    struct section_summary summary;
+    struct centres centres;
+    struct shape *shape = malloc(sizeof *shape);
+    if (shape == NULL) {
+        return ST_NO_MEMORY;
+    }
+    *shape = *given;
+    shape->contour_elements = shape->contour_elements < COARSE ? shape->contour_elements : COARSE;
+    enum status st = section_of(shape, &section);
+    if (st == ST_OK) {
+        st = section_summarise(&section, &summary);
+    }
+    if (st == ST_OK) {
+        st = centres_find(&section, &centres);
+    }
+    free(shape);
+    if (st != ST_OK && st != ST_NO_MEMORY) {
+        failure_set(failure_add(out), st, pointer, "cannot_carry_load",
+                    "a section with stiffness against extension, bending and torsion", NULL,
+                    "the section cannot carry load: %s", status_text(st));
+        return ST_OK;
+    }
+    return st;
+}
+
+enum status model_try_sections(const struct beam_def *b, struct failure_list *out)
+{
+    if (b->n_station == 0) {
+        return try_section(&b->section.shape, "/beam/section", out);
+    }
+    enum status st = ST_OK;
+    for (int i = 0; i < b->n_station && st == ST_OK; i++) {
+        char pointer[64];
+        (void)snprintf(pointer, sizeof pointer, "/beam/stations/%d/section", i);
+        st = try_section(&b->station[i].section.shape, pointer, out);
     }
     return st;
 }

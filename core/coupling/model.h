@@ -43,6 +43,10 @@ MUST_CHECK enum status model_build(const struct case_def *def, struct model *out
                                    struct failure *fail);
 void model_done(struct model *m);
 
+/* Builds each section of a case that case_def_check found in order, with a coarse mesh, and appends
+ * those that cannot carry load: what is wrong with them only shows there. ST_NO_MEMORY or ST_OK. */
+MUST_CHECK enum status model_try_sections(const struct beam_def *b, struct failure_list *out);
+
 /* Shape of the section at z [m]: that of the beam, or blended between its stations. At a jump the
  * outer side. */
 void model_shape_at(const struct beam_def *b, double z, struct shape *out);

@@ -18,6 +18,27 @@ static void require_positive(double value, const char *pointer, const char *fiel
                 "%s of a material must be positive", field);
 }
 
+/* All five strengths or none: the failure index needs each. */
+static void check_strengths(const struct material *m, const char *pointer, struct failure_list *out)
+{
+    const struct {
+        const char *field;
+        double value;
+    } strength[] = {{"x_tension_pa", m->x_tension},
+                    {"x_compression_pa", m->x_compression},
+                    {"y_tension_pa", m->y_tension},
+                    {"y_compression_pa", m->y_compression},
+                    {"s_shear_pa", m->s_shear}};
+    enum { STRENGTHS = sizeof strength / sizeof strength[0] };
+    int given = 0;
+    for (int i = 0; i < STRENGTHS; i++) {
+        given += strength[i].value != 0.0;
+    }
+    for (int i = 0; i < STRENGTHS && given > 0; i++) {
+        require_positive(strength[i].value, pointer, strength[i].field, out);
+    }
+}
+
 void material_check(const struct material *m, const char *pointer, struct failure_list *out)
 {
     require_positive(m->e_l, pointer, "e_l_pa", out);
@@ -25,6 +46,8 @@ void material_check(const struct material *m, const char *pointer, struct failur
     require_positive(m->g_lt, pointer, "g_lt_pa", out);
     require_positive(m->g_tt, pointer, "g_tt_pa", out);
     require_positive(m->density, pointer, "density_kg_m3", out);
+
+    check_strengths(m, pointer, out);
 
     char where[160];
     char got[96];

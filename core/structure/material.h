@@ -29,8 +29,8 @@ static inline int material_has_strength(const struct material *m)
 }
 
 /* Appends what makes the material inadmissible (moduli and density positive; 1 - nu_lt nu_tl > 0;
- * |nu_tt| < 1). `pointer` is the JSON pointer of the material. Field names below it are those of
- * the contract. */
+ * |nu_tt| < 1; some strengths but not all). `pointer` is the JSON pointer of the material. Field
+ * names below it are those of the contract. */
 void material_check(const struct material *m, const char *pointer, struct failure_list *out);
 
 #endif

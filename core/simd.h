@@ -1,0 +1,38 @@
+/* core/simd.h
+ * Eight doubles at a time: the vector type of gcc and clang, the instruction sets a kernel is
+ * compiled for, and the one matrix-vector product the time loop needs.
+ *
+ * A kernel is one always-inline body compiled once per level; nothing is contracted, so every level
+ * gives the same bits. Stateless; thread-safe. */
+#ifndef AEROM_CORE_SIMD_H
+#define AEROM_CORE_SIMD_H
+
+#include <stddef.h>
+
+enum { LANES = 8 };
+typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
+
+#if defined(__x86_64__)
+#define SIMD_TARGET_AVX2 __attribute__((target("avx2")))
+#define SIMD_TARGET_AVX512 __attribute__((target("avx512f,avx512dq")))
+#else
+#define SIMD_TARGET_AVX2
+#define SIMD_TARGET_AVX512
+#endif
+
+enum simd_level { SIMD_PORTABLE, SIMD_AVX2, SIMD_AVX512, SIMD_LEVELS };
+/* Best level of this machine. */
+enum simd_level simd_level_of_machine(void);
+
+/* Rows padded to whole lanes. */
+static inline int simd_padded(int n)
+{
+    return (n + LANES - 1) / LANES * LANES;
+}
+
+/* y = a x; a is (rows x n), column-major, 64-byte aligned, rows a multiple of LANES; y (rows)
+ * aligned too. */
+typedef void (*simd_gemv_fn)(int rows, int n, const double *a, const double *x, double *y);
+simd_gemv_fn simd_gemv(enum simd_level level);
+
+#endif
