@@ -63,7 +63,7 @@ enum status sim_create(const struct case_def *def, struct sim **out, struct fail
         }
         if (st != ST_OK) {
             failure_set(fail, st, "/solver", status_name(st), NULL, NULL,
-                        "no memory for the workspace and the record of the run");
+                        "the workspace and the record of the run: %s", status_text(st));
         }
     }
     if (st != ST_OK) {

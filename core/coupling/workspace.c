@@ -22,6 +22,9 @@ enum status workspace_init(const struct model *m, struct workspace *out)
         const int run = case_def_steps(&m->def) + 1;
         /* A window longer than the run is never filled. */
         w.window = steps < run ? (int)fmax(1.0, floor(steps + 0.5)) : run;
+        if (ns * (size_t)w.window > LIMIT_SERIES_VALUES) {
+            return ST_LIMIT;
+        }
     }
     struct {
         double **array;

@@ -49,6 +49,8 @@ struct workspace {
     } counters;
 };
 
+/* ST_LIMIT when the ring of the sliding mean would hold more than LIMIT_SERIES_VALUES: very many
+ * time steps in a period of the first mode. */
 MUST_CHECK enum status workspace_init(const struct model *m, struct workspace *out);
 void workspace_done(struct workspace *w);
 

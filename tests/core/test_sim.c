@@ -208,6 +208,26 @@ static void wild_flows(void **state)
     }
 }
 
+/* A time step so short that the sliding mean over one period would fill the memory. */
+static void a_mean_too_long_is_refused(void **state)
+{
+    (void)state;
+    struct network_def network = fixture_network(5, 0.01, 9);
+    struct case_def def;
+    struct sim *sim = NULL;
+    struct failure fail = {0};
+    fixture_paper_beam(-45.0, &polar, &def);
+    def.aero.dynamic = DYNAMIC_NETWORK;
+    def.aero.network = &network;
+    def.beam.elements = 64;
+    def.solver.time_step = 1e-7;
+    def.solver.duration = 0.1;
+    assert_int_equal(sim_create(&def, &sim, &fail), ST_LIMIT);
+    assert_null(sim);
+    assert_string_equal(fail.code, "limit");
+    network_def_done(&network);
+}
+
 /* One step, one element, one mode: the smallest run there is. */
 static void the_smallest_run(void **state)
 {
@@ -250,6 +270,7 @@ int main(void)
         cmocka_unit_test(huge_time_steps),
         cmocka_unit_test(wild_networks),
         cmocka_unit_test(wild_flows),
+        cmocka_unit_test(a_mean_too_long_is_refused),
         cmocka_unit_test(the_smallest_run),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
