@@ -196,8 +196,8 @@ static void check_section(const struct section_def *section, const char *pointer
     }
 }
 
-/* Stations ascend from the root to the tip, at most two at one place, and neighbours apart from
- * each other can be blended. */
+/* Stations ascend from the root to the tip, at most two at one place between them, and neighbours
+ * apart from each other can be blended. */
 static void check_stations(const struct beam_def *b, struct failure_list *out)
 {
     char pointer[160];
@@ -208,12 +208,13 @@ static void check_stations(const struct beam_def *b, struct failure_list *out)
         const double z = b->station[i].z, last = i > 0 ? b->station[i - 1].z : 0.0;
         const bool placed = isfinite(z) && (i == 0 ? z == 0.0 : z >= last) &&
                             (i < b->n_station - 1 || fabs(z - b->length) <= 1e-9 * b->length) &&
-                            !(i > 1 && z <= b->station[i - 2].z);
+                            !(i > 1 && z <= b->station[i - 2].z) &&
+                            !(i > 0 && z == last && (z == 0.0 || i == b->n_station - 1));
         if (!placed) {
             char got[32];
             (void)snprintf(got, sizeof got, "%.10g", z);
             failure_set(failure_add(out), ST_INVALID, pointer, "misplaced_station",
-                        "ascending from 0 to beam.length_m, at most two stations at one place", got,
+                        "ascending from 0 to beam.length_m, at most two at one place between", got,
                         "the station is out of place");
         } else if (i > 0 && z > last &&
                    !shape_same(&b->station[i - 1].section.shape, &b->station[i].section.shape)) {

@@ -4,6 +4,7 @@
 #include "core/num.h"
 
 #include <complex.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 enum { SAMPLES_MAX = 640, SAMPLES_MIN = 24 };
@@ -128,14 +129,31 @@ static int find_torsion(const struct damping_result *r, double frequency)
     return best;
 }
 
+/* Size a root reaches within the window. */
+static double reach(const struct pencil_root *p, double length)
+{
+    return p->amplitude * exp(fmax(0.0, p->sigma * length));
+}
+
+/* Is it the offset of the signal and its drift: a root that does not swing within the window and
+ * neither grows e-fold nor comes near the size of the others? */
+static bool is_drift(const struct pencil_fit *fit, const struct pencil_root *p, double length)
+{
+    double largest = 0.0;
+    for (int k = 0; k < fit->n; k++) {
+        largest = fmax(largest, reach(&fit->root[k], length));
+    }
+    return p->omega * length < NUM_PI &&
+           (p->sigma * length < 1.0 || reach(p, length) < 0.1 * largest);
+}
+
 static void take_roots(const struct pencil_fit *fit, double dt, int block, double length,
                        struct damping_result *out)
 {
     const double nyquist = NUM_PI / (dt * block);
     for (int k = 0; k < fit->n && out->n_root < LIMIT_ROOTS; k++) {
         const struct pencil_root *p = &fit->root[k];
-        const bool drift = p->omega * length < NUM_PI && p->sigma * length < 1.0;
-        if (drift || p->omega > 0.999 * nyquist) {
+        if (is_drift(fit, p, length) || p->omega > 0.999 * nyquist) {
             continue;
         }
         const double complex lambda = NUM_COMPLEX(p->sigma, p->omega);

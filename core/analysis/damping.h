@@ -33,8 +33,9 @@ struct damping_system {
 };
 
 /* n values at distance dt [s]. The window is DAMPING_PERIODS periods of the first mode: after the
- * first period of a signal that decays, else at its end. Roots that neither oscillate nor grow (the
- * offset and its drift) are not reported. A signal too short or at rest gives no roots. */
+ * first period of a signal that decays, else at its end. The offset and its drift (roots that
+ * neither swing nor grow to a size that counts) are not reported. A signal too short or at rest
+ * gives no roots. */
 enum { DAMPING_PERIODS = 8 };
 MUST_CHECK enum status damping_identify(int n, const double *y, double dt,
                                         const struct damping_system *system,

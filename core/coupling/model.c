@@ -30,6 +30,12 @@ void model_shape_at(const struct beam_def *b, double z, struct shape *out)
     shape_blend(&b->station[i].section.shape, &b->station[i + 1].section.shape, t, out);
 }
 
+const struct section_def *model_section_at(const struct beam_def *b, double z)
+{
+    double t = 0.0;
+    return b->n_station > 0 ? &b->station[stations_around(b, z, &t)].section : &b->section;
+}
+
 double model_chord_at(const struct beam_def *b, double z)
 {
     if (b->n_station == 0) {

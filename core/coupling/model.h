@@ -50,6 +50,8 @@ MUST_CHECK enum status model_try_sections(const struct beam_def *b, struct failu
 /* Shape of the section at z [m]: that of the beam, or blended between its stations. At a jump the
  * outer side. */
 void model_shape_at(const struct beam_def *b, double z, struct shape *out);
+/* The given section that the one at z has its make-up from: type, walls, layups, materials. */
+const struct section_def *model_section_at(const struct beam_def *b, double z);
 /* Aerodynamic chord at z [m]. */
 double model_chord_at(const struct beam_def *b, double z);
 
