@@ -41,17 +41,25 @@ bool check_passes(const struct check *c)
     return fabs(check_error(c)) <= c->tolerance;
 }
 
+/* Errors at the level of rounding differ from machine to machine: they print as 0. */
+static double shown(double error)
+{
+    return fabs(error) < 1e-9 ? 0.0 : error;
+}
+
 static void print_row(const struct check *c, FILE *out)
 {
-    (void)fprintf(out, "| %s | %.6g%s%s | ", c->what, c->value, c->unit[0] != '\0' ? " " : "",
-                  c->unit);
+    const bool bound = c->kind == CHECK_AT_MOST || c->kind == CHECK_AT_LEAST;
+    (void)fprintf(out, "| %s | %.*g%s%s | ", c->what, bound ? 2 : 6, c->value,
+                  c->unit[0] != '\0' ? " " : "", c->unit);
     switch (c->kind) {
     case CHECK_RELATIVE:
-        (void)fprintf(out, "%.6g | %+.3g %% | %.3g %% |", c->reference, 100.0 * check_error(c),
-                      100.0 * c->tolerance);
+        (void)fprintf(out, "%.6g | %+.2g %% | %.3g %% |", c->reference,
+                      shown(100.0 * check_error(c)), 100.0 * c->tolerance);
         break;
     case CHECK_ABSOLUTE:
-        (void)fprintf(out, "%.6g | %+.2g | %.2g |", c->reference, check_error(c), c->tolerance);
+        (void)fprintf(out, "%.6g | %+.2g | %.2g |", c->reference, shown(check_error(c)),
+                      c->tolerance);
         break;
     case CHECK_AT_MOST:
         (void)fprintf(out, " | | at most %.3g |", c->tolerance);

@@ -103,7 +103,7 @@ static void energy(struct check_list *list)
         const double first = modal_energy(sim, 4, r, 0);
         const double last = modal_energy(sim, 4, r, r->n_sample - 1);
         check_add(list, CHECK_AT_MOST, "", fabs(last / first - 1.0), 0.0, row[k].limit, "property",
-                  "density 0, 1 s, 4 modes, %s: |change of energy|", row[k].name);
+                  "density 0, 1 s, 4 modes, %s: relative change of energy", row[k].name);
         sim_destroy(sim);
     }
     polar_def_done(&polar);

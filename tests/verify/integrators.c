@@ -167,11 +167,11 @@ static void long_run(struct check_list *list)
     const double energy = (w2 * q * q + v * v) / w2 - 1.0;
     const double energy_rk = st == ST_OK ? (w2 * x * x + y * y) / w2 - 1.0 : (double)NAN;
     check_add(list, CHECK_AT_MOST, "", fabs(energy), 0.0, 1e-9, "property",
-              "exponential, undamped mode, 1000 periods: |change of energy|");
+              "exponential, undamped mode, 1000 periods: relative change of energy");
     /* The tolerance is an error per step; at worst all steps err the same way. */
     check_add(list, CHECK_AT_MOST, "", fabs(energy_rk), 0.0, 2.0 * tolerance * PERIODS * PER_PERIOD,
               "steps times tolerance 1e-12",
-              "adaptive Runge-Kutta, undamped mode, 1000 periods: |change of energy|");
+              "adaptive Runge-Kutta, undamped mode, 1000 periods: relative change of energy");
 }
 
 /* Extrapolation of a history t^p to tau = 1, and of alternating noise. */
