@@ -43,25 +43,37 @@ def strip_case(name, note, chord, length, plies, n_x, n_z, cells, tip_chord=None
         return lambda m: sweep(sections.strip_blocks(chord, plies, k * n_x, cells), length, k * n_z,
                                m, element, taper)
 
-    models = {"shell_coarse": shell(1), "shell_fine": shell(2), "coarse": solid(1), "fine": solid(2)}
-    case = Case(name, note, length, sections.strip(chord, plies), models, lambda z: chord * taper(z),
-                {"tip_chord_m": tip_chord, "law": "linear in z, about mid-chord"} if tip_chord
-                else None)
+    models = {"shell_coarse": shell(1), "shell_fine": shell(2), "coarse": solid(1),
+              "fine": solid(2)}
+    words = {"tip_chord_m": tip_chord, "law": "linear in z, about mid-chord"} if tip_chord else None
+    case = Case(name, note, length, sections.strip(chord, plies), models,
+                lambda z: chord * taper(z), words)
     case.chord, case.plies, case.tolerances = chord, plies, dict(
         {"plunge": 0.04, "twist": 0.08, "torque": 0.05, "frequency": 0.025}, **(tolerances or {}))
     case.checks = strip_checks
     return case
 
 
+def is_sandwich(plies):
+    return len(plies) == 3 and plies[1][0] == FOAM
+
+
 def shear_compliance(plies, materials):
-    """chord / (k G A) of a sandwich: its cores bear the shear, over the distance of the faces'
+    """chord / (k G A) of a sandwich: its core bears the shear, over the distance of the faces'
     middles. Zero for other strips, whose shear deflection does not count."""
-    cores = [p for p in plies if p[0] == FOAM]
-    if len(plies) != 3 or plies[1] not in cores:
+    if not is_sandwich(plies):
         return 0.0
     core = plies[1][2]
-    distance = core + (plies[0][2] + plies[2][2]) / 2
-    return core / (materials[FOAM]["g_lt_pa"] * distance**2)
+    return core / (materials[FOAM]["g_lt_pa"] * (core + plies[0][2])**2)
+
+
+def expected_torque(case, compliance, materials):
+    """Tip twist of a uniform strip under 1 N m [rad]."""
+    if not is_sandwich(case.plies):
+        return cf.strip_torque(compliance, case.chord, case.length)
+    (face, angle, t), (core, _, h) = case.plies[:2]
+    return cf.sandwich_torque((materials[face], t), (materials[core], h), angle, case.chord,
+                              case.length)
 
 
 def strip_checks(case, materials, model):
@@ -78,8 +90,7 @@ def strip_checks(case, materials, model):
     if case.taper is None:
         checks.append(("twist under tip torque, lamination theory",
                        tip(model, "tip_torque", "twist_deg"),
-                       DEGREE * cf.strip_torque(compliance, case.chord, case.length),
-                       tolerance["torque"]))
+                       DEGREE * expected_torque(case, compliance, materials), tolerance["torque"]))
     mass = sum(materials[m]["density_kg_m3"] * t for m, _, t in case.plies)
     mass *= cf.integrate(case.chord_at, case.length)
     checks.append(("mass", model["mass_kg"], mass, 1e-6))
@@ -97,13 +108,14 @@ def first(model, label):
 def paper_beam(angle):
     return strip_case("paper-beam-%s" % ("%d" % angle).replace("-", "m"),
                       "The paper's beam: one skin below the foam, free face of the foam above.",
-                      0.1, 0.37, [(CFRP, angle, 0.00013), (FOAM, 0, 0.00387)], 6, 22, [1, 2])
+                      0.1, 0.37, [(CFRP, angle, 0.00013), (FOAM, 0, 0.00387)], 6, 22, [1, 2],
+                      tolerances={"torque": 0.06})
 
 
 def sandwich(angle):
     return strip_case("sandwich-%d" % angle, "Two skins; the foam bears the transverse shear.", 0.1,
                       0.37, [(CFRP, angle, 0.00013), (FOAM, 0, 0.00374), (CFRP, angle, 0.00013)],
-                      6, 22, [1, 2, 1], tolerances={"plunge": 0.06, "twist": 0.25})
+                      6, 22, [1, 2, 1], tolerances={"twist": 0.25, "torque": 0.08})
 
 
 # Contours ----------------------------------------------------------------------------------------
@@ -167,15 +179,26 @@ def open_checks(properties):
 
 
 def box_beam_checks(expected):
-    """expected: [(load, key, published value in lb and in per unit load, factor to SI, tolerance)],
-    stiffness of NABSA (Popescu and Hodges 2000)."""
+    """expected: [(load, key of the tip, value for the unit load, tolerance)] from the stiffness
+    matrices of NABSA (Popescu and Hodges 2000)."""
     def checks(case, materials, model):
-        del materials
+        del case, materials
         return [("%s of %s, NABSA stiffness" % (key, load), abs(tip(model, load, key)), value, tol)
                 for load, key, value, tol in expected]
     return checks
 
 
+def box_mode_checks(expected_hz):
+    """First and second bending in the vertical plane, from the same stiffness."""
+    def checks(case, materials, model):
+        del case, materials
+        found = [m["frequency_hz"] for m in model["modes"] if m["label"] == "bending"]
+        return [("bending %d, NABSA stiffness" % (i + 1), value, hz, 0.03)
+                for i, (value, hz) in enumerate(zip(found, expected_hz))]
+    return checks
+
+
+# Published for loads of 1 lb and 1 lb in.
 CAS_STATIC = [("tip_force_y", "slope_plunge_rad", 1.070e-2 / POUND, 0.05),
               ("tip_force_y", "twist_deg", 1.113e-2 * DEGREE / POUND, 0.05),
               ("tip_torque", "twist_deg", 2.506e-3 * DEGREE / (POUND * INCH), 0.05),
@@ -203,11 +226,12 @@ def box_cases():
         "top +15 and bottom -15 in s (parallel in plan), side walls [15/-15]3.")
     yield contour_case("box-aluminium", note % "isotropic: check against Bredt.", short,
                        chandra_box("aluminium"), 6, 4, 60, box_checks)
-    for tag, length, checks in (("static", short, True), ("modes", long, False)):
-        yield contour_case("box-cus-15-" + tag, cus, length, chandra_box("cus"), 6, 4, 60,
-                           box_beam_checks(CUS_STATIC) if checks else None)
-        yield contour_case("box-cas-15-" + tag, cas, length, chandra_box("cas"), 3, 2, 40,
-                           box_beam_checks(CAS_STATIC) if checks else None)
+    for tag, text, mesh, static, modes in (("cus", cus, (6, 4, 60), CUS_STATIC, (28.34, 177.6)),
+                                           ("cas", cas, (2, 2, 24), CAS_STATIC, (30.00, 187.6))):
+        yield contour_case("box-%s-15-static" % tag, text, short, chandra_box(tag), *mesh,
+                           box_beam_checks(static))
+        yield contour_case("box-%s-15-modes" % tag, text, long, chandra_box(tag), *mesh,
+                           box_mode_checks(modes))
 
 
 def two_cell(walls, web):
@@ -219,25 +243,26 @@ def all_cases():
     yield from (sandwich(a) for a in (0, 30))
     yield strip_case("strip-aluminium", "Isotropic: check against closed forms.", 0.06, 0.5,
                      aluminium(0.002), 4, 25, [2])
-    yield strip_case("strip-30-4", "Solid angle-ply.", 0.03, 0.55, [(CFRP, 30, 0.000134)] * 4, 4, 40,
-                     [1] * 4)
+    yield strip_case("strip-30-4", "Solid angle-ply.", 0.03, 0.55, [(CFRP, 30, 0.000134)] * 4, 4,
+                     40, [1] * 4)
     minguet = [(MINGUET, a, 0.000134) for a in (45, 0, 0, 45)]
-    yield strip_case("strip-45-0-s", "Minguet's strip of validation 1.4.", 0.03, 0.55, minguet, 4, 40,
-                     [1] * 4)
-    yield strip_case("tapered-aluminium", "Linear taper, isotropic.", 0.06, 0.5, aluminium(0.002), 4,
-                     25, [2], tip_chord=0.03)
+    yield strip_case("strip-45-0-s", "[45/0]s, the strip of Minguet's frequencies.", 0.03, 0.55,
+                     minguet, 4, 40, [1] * 4)
+    yield strip_case("tapered-aluminium", "Linear taper, isotropic.", 0.06, 0.5, aluminium(0.002),
+                     4, 25, [2], tip_chord=0.03)
     yield strip_case("tapered-45-0-s", "Linear taper, [45/0]s.", 0.06, 0.5, minguet, 4, 25, [1] * 4,
                      tip_chord=0.03)
     yield from box_cases()
-    yield contour_case("two-cell-aluminium", "Web a third of the width behind the front wall.", 0.6,
-                       two_cell((aluminium(0.001),) * 4, aluminium(0.001)), 9, 3, 40, box_checks)
-    plies = {a: [(CFRP, a, 0.001)] for a in (20, -20, 0, 45)}
-    yield contour_case("two-cell-laminated", "Top +20 and bottom -20 in s, side walls 0, web 45.", 0.6,
+    yield contour_case("two-cell-aluminium", "Web a third of the width behind the front wall.", 1.2,
+                       two_cell((aluminium(0.0015),) * 4, aluminium(0.0015)), 9, 3, 40, box_checks)
+    plies = {a: [(CFRP, a, 0.0015)] for a in (20, -20, 0, 45)}
+    yield contour_case("two-cell-laminated", "Top +20 and bottom -20 in s, side walls 0, web 45.",
+                       1.2,
                        two_cell((plies[20], plies[0], plies[-20], plies[0]), plies[45]), 9, 3, 40,
                        None)
     yield contour_case("channel-aluminium", "Web on the reference axis, flanges forward.", 0.6,
-                       sections.Channel(0.025, 0.04, aluminium(0.0015)), 4, 6, 40,
+                       sections.Channel(0.025, 0.04, aluminium(0.0015)), 8, 8, 30,
                        open_checks(cf.channel))
     yield contour_case("i-section-aluminium", "Doubly symmetric.", 0.6,
-                       sections.ISection(0.03, 0.04, aluminium(0.0015)), 4, 4, 40,
+                       sections.ISection(0.03, 0.04, aluminium(0.0015)), 12, 6, 30,
                        open_checks(cf.i_section))

@@ -99,7 +99,8 @@ def rigid_tip_cards(mesh):
 def static_step(load):
     """load: {"nodal": {(node, direction): force}} or {"gravity": True}."""
     text = "*STEP\n*STATIC\n*CLOAD, OP=NEW\n"
-    text += "".join("%d, %d, %s\n" % (n, d, number(f)) for (n, d), f in load.get("nodal", {}).items())
+    text += "".join("%d, %d, %s\n" % (node, direction, number(force))
+                    for (node, direction), force in load.get("nodal", {}).items())
     text += "*DLOAD, OP=NEW\n"
     if load.get("gravity"):
         text += "EALL, GRAV, %s, 0, -1, 0\n" % number(GRAVITY_M_S2)
@@ -148,5 +149,6 @@ def read(text, n_load, n_mode):
         elif kind == "mass" and words:
             mass, kind = float(words[0]), None
     if len(tables) != n_load + n_mode or len(frequencies) != n_mode:
-        raise RuntimeError("ccx wrote %d tables and %d frequencies" % (len(tables), len(frequencies)))
+        raise RuntimeError("ccx wrote %d tables and %d frequencies"
+                           % (len(tables), len(frequencies)))
     return tables[:n_load], list(zip(frequencies, tables[n_load:])), mass

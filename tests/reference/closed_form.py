@@ -68,28 +68,59 @@ def integrate(function, length, steps=400):
 
 def warping_length(compliance, chord):
     """Distance over which a clamped root holds the warping of a strip [m]: sqrt(E I_w / G J), with
-    E I_w from bending of the wall across the chord."""
-    d11, _, d66 = compliance
-    return math.sqrt(chord**3 / (12 * d11) * d66 / (4 * chord))
+    G J free to bend and E I_w from bending of the wall with the twist held."""
+    d11, d16, d66 = compliance
+    return chord * math.sqrt(d66**2 / (d11 * d66 - d16**2) / 48)
 
 
 def strip_line_load(compliance, chord_at, length, shear_compliance=0.0):
     """Tip plunge [m] and twist [rad] under 1 N/m upward; shear_compliance: chord / (k G A) [m/N].
-    Curvatures of the wall are -v'' and, as s runs to -x, +2 theta'; the load gives
-    M_z = -(L - z)^2 / 2. The twist rate r obeys r - l^2 r'' = that of the free section, with r = 0 at
-    the root and the warping length l there."""
-    d11, d16, _ = compliance
-    plunge = integrate(lambda z: d11 / chord_at(z) * (length - z)**3 / 2, length)
-    shear = integrate(lambda z: shear_compliance / chord_at(z) * (length - z), length)
-    twist = integrate(lambda z: -d16 / (2 * chord_at(z)) * (length - z)**2 / 2, length)
-    rate, reach = -d16 / (2 * chord_at(0)), warping_length(compliance, chord_at(0))
-    return plunge + shear, twist - rate * (reach * length**2 / 2 + reach**3 - reach**2 * length)
+    Curvatures of the wall are k = -v'' and, as s runs to -x, +2 theta'; the load gives
+    M_z = -(L - z)^2 / 2. The twist rate r obeys r - l^2 r'' = that of the free section, with r = 0
+    at the root and the warping length l there; what is missing of it stiffens the bending."""
+    d11, d16, d66 = compliance
+    reach = warping_length(compliance, chord_at(0))
+    factor = -d16 / (2 * chord_at(0))
+    start = factor * (length**2 / 2 + reach**2)
+
+    def free_rate(z):
+        return -d16 / (2 * chord_at(z)) * (length - z)**2 / 2
+
+    def missing_rate(z):
+        return factor * reach**2 - start * math.exp(-z / reach)
+
+    twist = integrate(lambda z: free_rate(z) + missing_rate(z), length)
+    plunge = integrate(lambda z: (length - z) * (
+        d11 / chord_at(z) * (length - z)**2 / 2 - 2 * d16 / d66 * missing_rate(z)
+        + shear_compliance / chord_at(z)), length)
+    return plunge, twist
 
 
 def strip_torque(compliance, chord, length):
     """Tip twist [rad] under 1 N m at the tip of a uniform strip, warping held at the root."""
     reach = warping_length(compliance, chord)
     return compliance[2] / (4 * chord) * (length - reach * math.tanh(length / reach))
+
+
+def sandwich_torque(face, core, angle_deg, chord, length):
+    """Tip twist [rad] under 1 N m of a symmetric sandwich whose core shears: face, core: (material,
+    thickness). With p the sliding of one face on the other beyond that of rigid normals, the
+    face's shear p'/2 - d theta' and the core's p / h are in balance: p'' = mu^2 p, free edges.
+    Bredt's value 2 G t d^2 c loses the share tanh(a) / a, a = mu c / 2; the root holds the warping
+    that is left."""
+    (material, t), (filler, h) = face, core
+    s = inverse(reduced_stiffness(material, angle_deg))
+    shear = 1 / s[2][2]  # of a face free to stretch
+    axial = s[2][2] / (s[0][0] * s[2][2] - s[0][2]**2)  # of a face held against shear
+    d, mu = h + t, math.sqrt(2 * filler["g_lt_pa"] / (h * shear * t))
+    a = mu * chord / 2
+    gj = 2 * shear * t * d**2 * chord * (1 - math.tanh(a) / a)
+
+    def warping(x):
+        return d * (math.sinh(mu * x) / (mu * math.cosh(a)) - x / 2)
+
+    eiw = 2 * axial * t * integrate(lambda x: warping(x - chord / 2)**2, chord)
+    return restrained_twist(gj, eiw, length)
 
 
 def bending_hz(ei, mass, length, mode):
@@ -108,9 +139,9 @@ def restrained_twist(gj, eiw, length):
 
 
 def box(width, height, t, web_from_front=None):
-    """Mid-line rectangle of one wall thickness, with or without a vertical web: area, second moments
-    about the centroid, torsion constant (Bredt plus the walls' own), distance of the centroid from
-    the middle of the rectangle, towards the front."""
+    """Mid-line rectangle of one wall thickness, with or without a vertical web: area, second
+    moments about the centroid, torsion constant (Bredt plus the walls' own), distance of the
+    centroid from the middle of the rectangle, towards the front."""
     walls = [(width, t * width * height**2 / 4 * 2, t * width**3 / 12 * 2),
              (height, t * height**3 / 12 * 2, t * height * width**2 / 4 * 2)]
     area = 2 * t * (width + height)
@@ -132,8 +163,8 @@ def box(width, height, t, web_from_front=None):
 
 
 def channel(width, height, t):
-    """Flanges `width` long to one side of a web `height` high (mid-lines): J, warping constant about
-    the shear centre, distance of the shear centre behind the web, EI flap's second moment."""
+    """Flanges `width` long to one side of a web `height` high (mid-lines): J, area, warping
+    constant about the shear centre, distance of that centre behind the web, second moment."""
     return {"j": (2 * width + height) * t**3 / 3, "area": (2 * width + height) * t,
             "iw": t * width**3 * height**2 / 12 * (3 * width + 2 * height) / (6 * width + height),
             "e": 3 * width**2 / (6 * width + height),

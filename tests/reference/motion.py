@@ -52,7 +52,7 @@ def tip_record(mesh, displacement):
 
 def mode_record(mesh, frequency, shape):
     """Frequency, label, shares of the kinetic energy and the shape along the span, mass-normalised
-    and signed so that the largest of tip v, u and theta times the section's half width is positive."""
+    and signed: the largest of tip v, u and theta times half the section's width is positive."""
     motions = [section_motion(s, shape) for s in mesh.stations]
     z = [s.z for s in mesh.stations]
     parts = [sum((b - a) * (p["kinetic"][k] + q["kinetic"][k]) / 2

@@ -134,7 +134,8 @@ def face_integrals(points, density=lambda p: 1.0):
             n, d_xi, d_eta = quad8(xi, eta)
             place, a, b = ([sum(f * p[k] for f, p in zip(g, points)) for k in range(3)]
                            for g in (n, d_xi, d_eta))
-            cross = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+            cross = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                     a[0] * b[1] - a[1] * b[0])
             weight = wx * we * math.sqrt(sum(c * c for c in cross)) * density(place)
             for i in range(8):
                 result[i] += weight * n[i]

@@ -22,7 +22,8 @@ def strip(chord, plies):
 
 def strip_blocks(chord, plies, n_x, cells):
     front, back, half = chord / 2, -chord / 2, thickness(plies) / 2
-    return [Block(((front, -half), (back, -half)), ((front, half), (back, half)), plies, n_x, cells)]
+    return [Block(((front, -half), (back, -half)), ((front, half), (back, half)), plies, n_x,
+                  cells)]
 
 
 def contour(points, walls):
@@ -86,8 +87,8 @@ class Box:
         result = []
         for (a, b), n in zip(pieces, counts):
             result.append(self.wall("top", ((a[0], hi), (b[0], hi)), ((a[1], ho), (b[1], ho)), n))
-            result.append(self.wall("bottom", ((b[0], -hi), (a[0], -hi)), ((b[1], -ho), (a[1], -ho)),
-                                    n))
+            result.append(self.wall("bottom", ((b[0], -hi), (a[0], -hi)),
+                                    ((b[1], -ho), (a[1], -ho)), n))
         result.append(self.wall("back", ((-wi, hi), (-wi, -hi)), ((-wo, ho), (-wo, -ho)), n_height))
         result.append(self.wall("front", ((wi, -hi), (wi, hi)), ((wo, -ho), (wo, ho)), n_height))
         if lay["web"] is not None:
@@ -133,5 +134,6 @@ class ISection:
         result = [Block(((-e, e - h), (-e, h - e)), ((e, e - h), (e, h - e)), self.plies, n_height)]
         for y in (h, -h):
             for a, b, n in ((w, e, n_half), (e, -e, 1), (-e, -w, n_half)):
-                result.append(Block(((a, y - e), (b, y - e)), ((a, y + e), (b, y + e)), self.plies, n))
+                result.append(Block(((a, y - e), (b, y - e)), ((a, y + e), (b, y + e)),
+                                    self.plies, n))
         return result

@@ -1,6 +1,6 @@
 """Three-dimensional meshes of a beam: the cross-section swept along the span as twenty-node bricks,
-or a strip as eight-node layered shells. Both give the same Mesh, so that loads, clamp and evaluation
-know nothing of the element."""
+or a strip as eight-node layered shells. Both give the same Mesh, so that loads, clamp and
+evaluation know nothing of the element."""
 
 import math
 
@@ -18,9 +18,10 @@ class Station:
 
 class Mesh:
     """nodes: {id: (x, y, z)}. groups: {key: [connectivity]}; the key of bricks is (material, fibre,
-    across), shells have one group, None, and their layers in `layers`: [(thickness, material, fibre,
-    across)]. faces: lists of eight ids where the line load acts (strips). root: ids. tip_area: {id:
-    integral of the shape function over the tip section}, empty for shells. stations: root to tip."""
+    across), shells have one group, None, and their layers in `layers`: [(thickness, material,
+    fibre, across)]. faces: lists of eight ids where the line load acts (strips). root: ids.
+    tip_area: {id: integral of the shape function over the tip section}, empty for shells.
+    stations: root to tip."""
 
     def __init__(self, element):
         self.element = element
@@ -76,7 +77,8 @@ def sweep(blocks, length, n_z, materials, element, taper=no_taper):
             mesh.groups.setdefault((cell.material,) + axes, []).append(ids)
             if cell.first_layer:
                 a, m, b = cell.lower
-                mesh.faces.append([low[a], low[b], high[b], high[a], low[m], mid[b], high[m], mid[a]])
+                mesh.faces.append([low[a], low[b], high[b], high[a],
+                                   low[m], mid[b], high[m], mid[a]])
     mesh.root = sorted(planes[0].values())
     mesh.tip_area = {planes[-1][i]: area for i, area in enumerate(section.nodal_areas())}
     masses = section.masses(materials)
@@ -90,7 +92,7 @@ def sweep(blocks, length, n_z, materials, element, taper=no_taper):
 
 
 def shell_strip(chord, plies, length, n_z, n_x, materials, taper=no_taper):
-    """Layered S8R of a strip; the normal is up, so the layers go from the lower to the upper face."""
+    """Layered S8R of a strip; the normal is up, so that layers go from lower to upper face."""
     mesh = Mesh("S8R")
     grid = {}
     for k in range(2 * n_z + 1):
