@@ -1,19 +1,11 @@
 #include "api/result.h"
 
-#include "api/json_out.h"
+#include "api/result_parts.h"
 #include "core/num.h"
 
 #include <assert.h>
 #include <math.h>
 #include <string.h>
-
-/* What a document is written from. */
-struct view {
-    const struct api_case *c;
-    const struct case_def *def;
-    const struct sim_result *r;
-    const struct run_timing *timing;
-};
 
 static const double degrees = 180.0 / NUM_PI;
 
@@ -53,7 +45,7 @@ static void write_signal_damping(struct json_out *out, const struct damping_resu
     json_object_end(out);
 }
 
-static void write_damping(struct json_out *out, const struct view *v)
+static void write_damping(struct json_out *out, const struct result_view *v)
 {
     json_object_begin(out);
     json_key(out, "tip_twist");
@@ -63,103 +55,7 @@ static void write_damping(struct json_out *out, const struct view *v)
     json_object_end(out);
 }
 
-static void write_mode_shape(struct json_out *out, const struct mode_result *m, double length)
-{
-    double z[MODE_SAMPLES];
-    for (int i = 0; i < MODE_SAMPLES; i++) {
-        z[i] = length * i / (MODE_SAMPLES - 1);
-    }
-    json_key(out, "shape");
-    json_object_begin(out);
-    json_key_numbers(out, "z_m", MODE_SAMPLES, z, 1, 1.0);
-    json_key_numbers(out, "plunge", MODE_SAMPLES, m->plunge, 1, 1.0);
-    json_key_numbers(out, "chordwise", MODE_SAMPLES, m->chordwise, 1, 1.0);
-    json_key_numbers(out, "twist", MODE_SAMPLES, m->twist, 1, 1.0);
-    json_object_end(out);
-}
-
-static void write_mode(struct json_out *out, const struct mode_result *m, double length)
-{
-    static const enum mode_label parts[] = {MODE_BENDING, MODE_LAG, MODE_TORSION, MODE_AXIAL};
-    json_object_begin(out);
-    json_key_number(out, "frequency_hz", m->frequency_hz);
-    json_key_string(out, "label", mode_label_name(m->label));
-    json_key_number(out, "modal_mass_kg", m->modal_mass);
-    json_key(out, "energy_share");
-    json_object_begin(out);
-    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
-        json_key_number(out, mode_label_name(parts[i]), m->share[i]);
-    }
-    json_object_end(out);
-    write_mode_shape(out, m, length);
-    json_object_end(out);
-}
-
-static void write_modes(struct json_out *out, const struct view *v)
-{
-    json_object_begin(out);
-    json_key(out, "modes");
-    json_array_begin(out);
-    for (int i = 0; i < v->r->n_mode; i++) {
-        write_mode(out, &v->r->mode[i], v->def->beam.length);
-    }
-    json_array_end(out);
-    json_object_end(out);
-}
-
-static void write_matrix(struct json_out *out, const char *key, int n, const double *a)
-{
-    json_key(out, key);
-    json_array_begin(out);
-    for (int i = 0; i < n; i++) {
-        json_array_begin(out);
-        for (int j = 0; j < n; j++) {
-            json_number(out, a[i + j * n]);
-        }
-        json_array_end(out);
-    }
-    json_array_end(out);
-}
-
-static void write_names(struct json_out *out, const char *key, int n, const char *const *names)
-{
-    json_key(out, key);
-    json_array_begin(out);
-    for (int i = 0; i < n; i++) {
-        json_string(out, names[i]);
-    }
-    json_array_end(out);
-}
-
-/* The scalars that describe a section, inside an object already begun. */
-static void write_section_essentials(struct json_out *out, const struct section_result *s)
-{
-    json_key_number(out, "mass_kg_m", s->mass_per_length);
-    json_key_number(out, "thickness_m", s->thickness);
-    json_key_number(out, "ei_flap_n_m2", s->ei_flap);
-    json_key_number(out, "ei_lag_n_m2", s->ei_lag);
-    json_key_number(out, "gj_n_m2", s->gj);
-    json_key_number(out, "bend_twist_n_m2", s->bend_twist);
-    json_key_string(out, "wash", wash_name(s->wash));
-}
-
-static void write_section(struct json_out *out, const struct view *v)
-{
-    /* The condensed stiffness has the first five. */
-    static const char *const strains[SECTION_STRAINS] = {"w'",      "psi'",     "phi'",    "theta'",
-                                                         "theta''", "gamma_xz", "gamma_yz"};
-    static const char *const motions[SECTION_MASS] = {"u", "v", "w", "v'", "u'", "theta", "theta'"};
-    const struct section_result *s = &v->r->section;
-    json_object_begin(out);
-    write_matrix(out, "stiffness", SECTION_STRAINS, s->stiffness);
-    write_matrix(out, "stiffness_condensed", SECTION_CLASSICAL, s->stiffness_condensed);
-    write_matrix(out, "mass", SECTION_MASS, s->mass);
-    write_names(out, "order", SECTION_STRAINS, strains);
-    write_names(out, "mass_order", SECTION_MASS, motions);
-    write_section_essentials(out, s);
-    json_object_end(out);
-}
-
+/* Frequencies and labels only: the shapes have a document of their own. */
 static void write_mode_list(struct json_out *out, const struct sim_result *r)
 {
     json_key(out, "modes");
@@ -202,7 +98,7 @@ static void write_counters(struct json_out *out, const struct sim_counters *n)
     json_object_end(out);
 }
 
-static void write_marching(struct json_out *out, const struct view *v)
+static void write_marching(struct json_out *out, const struct result_view *v)
 {
     const struct sim_result *r = v->r;
     json_key_string(out, "verdict", verdict_name(r->verdict));
@@ -227,7 +123,7 @@ static void write_marching(struct json_out *out, const struct view *v)
     write_counters(out, &r->counters);
 }
 
-static void write_timing(struct json_out *out, const struct view *v)
+static void write_timing(struct json_out *out, const struct result_view *v)
 {
     const bool marched = v->def->kind == CASE_SIMULATION;
     json_key(out, "timing");
@@ -258,7 +154,7 @@ static void write_reference(struct json_out *out, const char *key, const char *n
     json_object_end(out);
 }
 
-static void write_identity(struct json_out *out, const struct view *v)
+static void write_identity(struct json_out *out, const struct result_view *v)
 {
     const bool flows = v->def->kind == CASE_SIMULATION;
     const struct polar_def *polar = flows ? v->def->aero.polar : NULL;
@@ -274,7 +170,7 @@ static void write_identity(struct json_out *out, const struct view *v)
     json_object_end(out);
 }
 
-static void write_summary(struct json_out *out, const struct view *v)
+static void write_summary(struct json_out *out, const struct result_view *v)
 {
     json_object_begin(out);
     json_key_string(out, "kind", case_kind_name(v->def->kind));
@@ -282,11 +178,15 @@ static void write_summary(struct json_out *out, const struct view *v)
     if (v->def->kind == CASE_SIMULATION) {
         write_marching(out, v);
     } else if (v->def->kind == CASE_MODES) {
-        write_mode_list(out, v->r);
+        result_modes_members(out, v);
+    } else if (v->def->kind == CASE_STATIC) {
+        result_static_members(out, v);
+    } else {
+        result_matrix_members(out, &v->r->section);
     }
     json_key(out, "section");
     json_object_begin(out);
-    write_section_essentials(out, &v->r->section);
+    result_section_members(out, &v->r->section);
     json_object_end(out);
     write_timing(out, v);
     write_identity(out, v);
@@ -295,12 +195,11 @@ static void write_summary(struct json_out *out, const struct view *v)
 
 static const struct {
     const char *name;
-    void (*write)(struct json_out *out, const struct view *v);
+    void (*write)(struct json_out *out, const struct result_view *v);
 } documents[] = {
-    {"summary", write_summary},
-    {"damping", write_damping},
-    {"modes", write_modes},
-    {"section", write_section},
+    {"summary", write_summary},      {"damping", write_damping},
+    {"modes", result_write_modes},   {"section", result_write_section},
+    {"static", result_write_static},
 };
 
 const char *const *result_documents(enum case_kind kind)
@@ -308,8 +207,11 @@ const char *const *result_documents(enum case_kind kind)
     static const char *const simulation[] = {"summary", "damping", "modes", "section", NULL};
     static const char *const modes[] = {"summary", "modes", "section", NULL};
     static const char *const section[] = {"summary", "section", NULL};
-    static const char *const *const lists[] = {
-        [CASE_SIMULATION] = simulation, [CASE_MODES] = modes, [CASE_SECTION] = section};
+    static const char *const statics[] = {"summary", "static", "section", NULL};
+    static const char *const *const lists[] = {[CASE_SIMULATION] = simulation,
+                                               [CASE_MODES] = modes,
+                                               [CASE_SECTION] = section,
+                                               [CASE_STATIC] = statics};
     assert((unsigned)kind < sizeof lists / sizeof lists[0]);
     return lists[kind];
 }
@@ -317,7 +219,7 @@ const char *const *result_documents(enum case_kind kind)
 char *result_document(const char *document, const struct api_case *c, const struct sim_result *r,
                       const struct run_timing *timing)
 {
-    const struct view v = {.c = c, .def = api_case_def(c), .r = r, .timing = timing};
+    const struct result_view v = {.c = c, .def = api_case_def(c), .r = r, .timing = timing};
     struct json_out out = {0};
     for (size_t i = 0; i < sizeof documents / sizeof documents[0]; i++) {
         if (strcmp(documents[i].name, document) == 0) {

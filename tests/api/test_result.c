@@ -165,6 +165,13 @@ static void test_simulation(void **state)
     json_free(document(f, "section", r));
 }
 
+static int nodes_of(const cJSON *modes, int mode, const char *key)
+{
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(modes, "modes");
+    const cJSON *nodes = cJSON_GetObjectItemCaseSensitive(cJSON_GetArrayItem(list, mode), "nodes");
+    return cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(nodes, key));
+}
+
 static void test_modes(void **state)
 {
     struct fixture *f = *state;
@@ -187,6 +194,19 @@ static void test_modes(void **state)
     cJSON *s = document(f, "summary", r);
     assert_string_equal(string(s, "kind"), "modes");
     assert_null(cJSON_GetObjectItemCaseSensitive(s, "e_star"));
+    assert_near_abs(number(s, "modes/2/modal_mass"), r->mode[2].modal_mass, 0.0);
+    /* The second bending mode has one node, the first none. */
+    assert_int_equal(r->mode[0].label, MODE_BENDING);
+    assert_int_equal(nodes_of(s, 0, "plunge_z_m"), 0);
+    int second = 1;
+    while (second < r->n_mode && r->mode[second].label != MODE_BENDING) {
+        second++;
+    }
+    assert_true(second < r->n_mode);
+    assert_int_equal(nodes_of(s, second, "plunge_z_m"), 1);
+    char path[64];
+    (void)snprintf(path, sizeof path, "modes/%d/nodes/plunge_z_m/0", second);
+    assert_near_rel(number(s, path), 0.783 * 0.37, 0.01); /* of a uniform cantilever */
     json_free(s);
     json_free(document(f, "section", r));
 }
@@ -206,8 +226,21 @@ static void test_section(void **state)
     assert_near_rel(number(s, "mass_kg_m"), 0.1 * (0.00013 * 1445 + 0.00387 * 35), 1e-12);
     assert_near_rel(number(s, "thickness_m"), 0.004, 1e-12);
     assert_near_rel(number(s, "mass/0/0"), number(s, "mass_kg_m"), 1e-9);
+    assert_near_rel(number(s, "ea_n"), r->section.centres.ea, 0.0);
+    /* The strip warps by -x y + const: nothing on its middle line but what the laminate couples. */
+    const cJSON *warping = cJSON_GetObjectItemCaseSensitive(s, "warping");
+    assert_int_equal(cJSON_GetArraySize(warping), 33);
+    assert_near_rel(number(s, "warping/0/x_m"), 0.05, 1e-12);
+    assert_near_rel(number(s, "warping/32/x_m"), -0.05, 1e-12);
+    /* The summary has the matrices on its first level: scripts rely on it. */
+    cJSON *head = document(f, "summary", r);
+    static const char *const same[] = {"stiffness", "stiffness_condensed", "mass", "order"};
+    for (size_t i = 0; i < sizeof same / sizeof same[0]; i++) {
+        assert_true(cJSON_Compare(cJSON_GetObjectItemCaseSensitive(head, same[i]),
+                                  cJSON_GetObjectItemCaseSensitive(s, same[i]), true));
+    }
+    json_free(head);
     json_free(s);
-    json_free(document(f, "summary", r));
 }
 
 /* A number that is not finite is null, never text that is no JSON. */
