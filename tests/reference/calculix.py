@@ -23,7 +23,7 @@ MATERIALS = FOLDER.parents[1] / "data" / "materials"
 MODES = 8
 DIGITS = 7  # what the solver prints
 CHECK_TOLERANCE = 1e-4  # relative, of --check
-NOISE = 1e-6  # of the largest motion: what is below is rounding, stored as zero
+NOISE = 1e-5  # of the largest motion: what is below is rounding, stored as zero
 UNIT_LOADS = {  # name -> (words of the load, direction of the tied tip)
     "tip_force_y": ({"tip_force_y_n": 1.0}, ("shift", 2)),
     "tip_force_x": ({"tip_force_x_n": 1.0}, ("shift", 1)),
@@ -78,10 +78,13 @@ def run_model(case, name, materials):
 
 
 def noise(tip):
-    """What is rounding in each entry of a tip record."""
+    """What is rounding in each entry of a tip record: lengths are measured by the largest and by the
+    largest angle over a centimetre, angles by the largest and by the largest length over a metre."""
     unit = {k: math.radians(1) if k.endswith("_deg") else 1.0 for k in tip}
-    size = max(abs(v) * unit[k] for k, v in tip.items())
-    return {k: NOISE * size / unit[k] for k in tip}
+    length = max(abs(v) for k, v in tip.items() if k.endswith("_m"))
+    angle = max(abs(v) * unit[k] for k, v in tip.items() if not k.endswith("_m"))
+    size = {True: max(length, 0.01 * angle), False: max(angle, length)}
+    return {k: NOISE * size[k.endswith("_m")] / unit[k] for k in tip}
 
 
 def clean(static):
@@ -101,14 +104,13 @@ def rounded(value):
 
 
 def mesh_errors(coarse, fine):
-    """Relative error left in the fine model if the error falls with the square of the element size:
-    a third of the change from the coarse one. Written into the fine model."""
-    for a, b in zip(coarse["modes"], fine["modes"]):
-        b["mesh_error"] = abs(b["frequency_hz"] - a["frequency_hz"]) / 3 / b["frequency_hz"]
+    """What is left in the fine model if the error falls with the square of the element size: a third
+    of the change from the coarse one, in the unit of the value. Written into the fine model."""
+    for a, b in zip(coarse["modes"], fine["modes"], strict=True):
+        b["mesh_error_hz"] = abs(b["frequency_hz"] - a["frequency_hz"]) / 3
     for name, entry in fine["static"].items():
         other = coarse["static"][name]["tip"]
-        entry["mesh_error"] = {k: abs(v - other[k]) / 3 / abs(v)
-                               for k, v in entry["tip"].items() if v}
+        entry["mesh_error"] = {k: abs(v - other[k]) / 3 for k, v in entry["tip"].items()}
 
 
 def run_case(case, materials):
