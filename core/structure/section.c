@@ -52,14 +52,15 @@ static void integrate_mass(const struct contour *c, const struct laminate *lam,
         for (int q = 0; q < CONTOUR_GAUSS; q++) {
             const struct contour_point p = contour_at(el, contour_gauss_point[q]);
             const double weight = contour_gauss_weight[q] * p.jacobian;
-            const double g = warping_at(w, el, &p, S_THETA);
+            const double g = warping_at(w, el, &p, WARPING_VLASOV);
             /* Displacement component a at n is mid[a] + n slope[a]. */
             const double mid[3][U] = {{[M_U] = 1.0, [M_THETA] = -p.y},
                                       {[M_V] = 1.0, [M_THETA] = p.x},
                                       {[M_W] = 1.0, [M_DU] = -p.x, [M_DV] = -p.y, [M_DTHETA] = g}};
-            const double slope[3][U] = {{[M_THETA] = p.dx},
-                                        {[M_THETA] = p.dy},
-                                        {[M_DU] = -p.dy, [M_DV] = p.dx, [M_DTHETA] = p.r_t}};
+            const double slope[3][U] = {
+                {[M_THETA] = p.dx},
+                {[M_THETA] = p.dy},
+                {[M_DU] = -p.dy, [M_DV] = p.dx, [M_DTHETA] = warping_across(w, &p)}};
             for (int a = 0; a < U; a++) {
                 for (int b = 0; b < U; b++) {
                     double sum = 0.0;

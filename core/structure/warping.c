@@ -35,6 +35,12 @@ double warping_at(const struct warping *w, const struct contour_element *el,
     return at_nodes(el, p->shape, w->g + num_at(0, k, w->n_node));
 }
 
+double warping_across(const struct warping *w, const struct contour_point *p)
+{
+    /* The normal turns with the wall: r_t theta' less the shear gamma_nz of Eq. (A.7). */
+    return p->r_t - w->twist_shear[0] * p->dy + w->twist_shear[1] * p->dx;
+}
+
 double warping_flow(const double *reduced, int row, const double e[WALL_STRAINS])
 {
     double sum = 0.0;
@@ -45,9 +51,9 @@ double warping_flow(const double *reduced, int row, const double e[WALL_STRAINS]
 }
 
 /* Wall strains at a point per unit of beam strain k, without the slope of its warping.
- * DEVIATION (A.6): gamma_sz contains theta', the print has phi'. g_theta is the warping of unit
- * theta' there, which theta'' stretches. */
-static void bare_strain(const struct contour_point *p, int k, double g_theta,
+ * DEVIATION (A.6): gamma_sz contains theta', the print has phi'. `stretched` is the warping that
+ * theta'' stretches there, `across` its slope across the wall. */
+static void bare_strain(const struct contour_point *p, int k, double stretched, double across,
                         double e[WALL_STRAINS])
 {
     memset(e, 0, WALL_STRAINS * sizeof *e);
@@ -68,8 +74,8 @@ static void bare_strain(const struct contour_point *p, int k, double g_theta,
         e[W_TWIST] = 2.0;
         break;
     case S_THETA2:
-        e[W_EPS] = g_theta;
-        e[W_KAPPA] = p->r_t;
+        e[W_EPS] = stretched;
+        e[W_KAPPA] = across;
         break;
     case S_GXZ:
         e[W_GAMMA] = p->dx;
@@ -85,9 +91,9 @@ static void bare_strain(const struct contour_point *p, int k, double g_theta,
 void warping_strains(const struct warping *w, const struct contour_element *el,
                      const struct contour_point *p, double *e)
 {
-    const double g_theta = warping_at(w, el, p, S_THETA);
+    const double stretched = warping_at(w, el, p, WARPING_VLASOV), across = warping_across(w, p);
     for (int k = 0; k < N; k++) {
-        bare_strain(p, k, g_theta, e + WALL_STRAINS * (ptrdiff_t)k);
+        bare_strain(p, k, stretched, across, e + WALL_STRAINS * (ptrdiff_t)k);
         e[W_GAMMA + WALL_STRAINS * k] += at_nodes(el, p->slope, w->g + num_at(0, k, w->n_node));
     }
 }
@@ -114,8 +120,8 @@ static enum status factor(const struct contour *c, const struct laminate *lam, s
     return la_cholesky(s->n, s->factor);
 }
 
-/* Load of strain k on the warping: -int N' (R_gamma . e_k) ds. */
-static void add_load(const struct contour *c, const struct laminate *lam, const double *g_theta,
+/* Load of strain k on the warping w: -int N' (R_gamma . e_k) ds. */
+static void add_load(const struct contour *c, const struct laminate *lam, const struct warping *w,
                      int k, double *rhs)
 {
     for (int i = 0; i < c->n_element; i++) {
@@ -123,7 +129,7 @@ static void add_load(const struct contour *c, const struct laminate *lam, const 
         for (int q = 0; q < CONTOUR_GAUSS; q++) {
             const struct contour_point p = contour_at(el, contour_gauss_point[q]);
             double e[WALL_STRAINS];
-            bare_strain(&p, k, g_theta != NULL ? at_nodes(el, p.shape, g_theta) : 0.0, e);
+            bare_strain(&p, k, warping_at(w, el, &p, WARPING_VLASOV), warping_across(w, &p), e);
             const double flow = warping_flow(lam[el->laminate].reduced, W_GAMMA, e);
             for (int a = 0; a < 3; a++) {
                 rhs[el->node[a]] -= contour_gauss_weight[q] * p.jacobian * p.slope[a] * flow;
@@ -281,7 +287,7 @@ static void solve_classic(const struct contour *c, const struct laminate *lam,
     double *flow = s->constraint; /* scratch until the retained set is solved */
     for (int k = 0; k < N; k++) {
         if (k != S_THETA2) {
-            add_load(c, lam, NULL, k, w->g + num_at(0, k, n));
+            add_load(c, lam, w, k, w->g + num_at(0, k, n));
             solve_held(s, w->g + num_at(0, k, n));
         }
     }
@@ -294,9 +300,75 @@ static void solve_classic(const struct contour *c, const struct laminate *lam,
         }
     }
     double *second = w->g + num_at(0, S_THETA2, n);
-    add_load(c, lam, w->g + num_at(0, S_THETA, n), S_THETA2, second);
+    memcpy(w->g + num_at(0, WARPING_VLASOV, n), w->g + num_at(0, S_THETA, n),
+           (size_t)n * sizeof *second);
+    add_load(c, lam, w, S_THETA2, second);
     solve_held(s, second);
     remove_mean(n, flow, 0.0, second);
+}
+
+/* Energy of the transverse shear of the walls for unit strains i and j. */
+static double wall_shear_energy(const struct couples *couples, const double *lambda, int i, int j)
+{
+    double sum = 0.0;
+    for (int a = 0; a < CONSTRAINTS; a++) {
+        for (int b = 0; b < CONSTRAINTS; b++) {
+            sum += lambda[num_at(a, i, CONSTRAINTS)] *
+                   couples->compliance[num_at(a, b, CONSTRAINTS)] *
+                   lambda[num_at(b, j, CONSTRAINTS)];
+        }
+    }
+    return sum;
+}
+
+/* Stiffness of unit strains i and j in the walls, without wall_shear. */
+static double membrane_energy(const struct contour *c, const struct laminate *lam,
+                              const struct warping *w, int i, int j)
+{
+    double sum = 0.0;
+    for (int q = 0; q < c->n_element * CONTOUR_GAUSS; q++) {
+        const struct contour_element *el = &c->element[q / CONTOUR_GAUSS];
+        const double *reduced = lam[el->laminate].reduced;
+        const struct contour_point p = contour_at(el, contour_gauss_point[q % CONTOUR_GAUSS]);
+        double e[WALL_STRAINS * N];
+        warping_strains(w, el, &p, e);
+        for (int r = 0; r < WALL_STRAINS; r++) {
+            sum += contour_gauss_weight[q % CONTOUR_GAUSS] * p.jacobian * e[r + WALL_STRAINS * i] *
+                   warping_flow(reduced, r, e + WALL_STRAINS * (ptrdiff_t)j);
+        }
+    }
+    return sum;
+}
+
+/* Twist without shear force brings shear strains along, as it is about the shear centre, and their
+ * warping with it. Both are held where the warping is held, so theta'' stretches the sum: the
+ * warping of theta' alone would be that of a twist about the origin. */
+static enum status find_vlasov(const struct contour *c, const struct laminate *lam,
+                               const double *lambda, const struct couples *couples,
+                               struct warping *w)
+{
+    static const int shear[2] = {S_GXZ, S_GYZ};
+    const int n = w->n_node;
+    double a[4], b[2];
+    for (int i = 0; i < 2; i++) {
+        for (int j = 0; j < 2; j++) {
+            a[i + 2 * j] = membrane_energy(c, lam, w, shear[i], shear[j]) +
+                           wall_shear_energy(couples, lambda, shear[i], shear[j]);
+        }
+        b[i] = -membrane_energy(c, lam, w, shear[i], S_THETA) -
+               wall_shear_energy(couples, lambda, shear[i], S_THETA);
+    }
+    const enum status st = la_solve_symmetric(2, a, 1, b);
+    if (st != ST_OK) {
+        return st;
+    }
+    memcpy(w->twist_shear, b, sizeof b);
+    for (int q = 0; q < n; q++) {
+        w->g[num_at(q, WARPING_VLASOV, n)] = w->g[num_at(q, S_THETA, n)] +
+                                             b[0] * w->g[num_at(q, S_GXZ, n)] +
+                                             b[1] * w->g[num_at(q, S_GYZ, n)];
+    }
+    return ST_OK;
 }
 
 static enum status solve_retained(const struct contour *c, const struct laminate *lam,
@@ -313,32 +385,25 @@ static enum status solve_retained(const struct contour *c, const struct laminate
         solve_held(s, response);
     }
     enum status st = ST_OK;
-    for (int pass = 0; pass < 2; pass++) { /* theta'' needs the final warping of theta' */
-        for (int k = 0; k < N && st == ST_OK; k++) {
-            double *g = w->g + num_at(0, k, n);
-            if ((k == S_THETA2) != (pass == 1)) {
-                continue;
-            }
-            if (k == S_THETA2) {
-                add_load(c, lam, w->g + num_at(0, S_THETA, n), k, g);
-                solve_held(s, g);
-            } else { /* without the constraints it is the classic warping */
-                memcpy(g, classic->g + num_at(0, k, n), (size_t)n * sizeof *g);
-            }
+    for (int k = 0; k < N && st == ST_OK; k++) {
+        double *g = w->g + num_at(0, k, n);
+        if (k != S_THETA2) { /* without the constraints it is the classic warping */
+            memcpy(g, classic->g + num_at(0, k, n), (size_t)n * sizeof *g);
             st = constrain(s, couples, k, g, lambda + num_at(0, k, CONSTRAINTS));
         }
     }
-    for (int a = 0; a < N && st == ST_OK; a++) {
-        for (int b = 0; b < N; b++) {
-            double sum = 0.0;
-            for (int i = 0; i < CONSTRAINTS; i++) {
-                for (int j = 0; j < CONSTRAINTS; j++) {
-                    sum += lambda[num_at(i, a, CONSTRAINTS)] *
-                           couples->compliance[num_at(i, j, CONSTRAINTS)] *
-                           lambda[num_at(j, b, CONSTRAINTS)];
-                }
-            }
-            w->wall_shear[num_at(a, b, N)] = sum;
+    if (st == ST_OK) {
+        st = find_vlasov(c, lam, lambda, couples, w);
+    }
+    if (st == ST_OK) { /* needs the final warping of the twist */
+        double *g = w->g + num_at(0, S_THETA2, n);
+        add_load(c, lam, w, S_THETA2, g);
+        solve_held(s, g);
+        st = constrain(s, couples, S_THETA2, g, lambda + num_at(0, S_THETA2, CONSTRAINTS));
+    }
+    for (int i = 0; i < N && st == ST_OK; i++) {
+        for (int j = 0; j < N; j++) {
+            w->wall_shear[num_at(i, j, N)] = wall_shear_energy(couples, lambda, i, j);
         }
     }
     return st;
@@ -360,7 +425,7 @@ static enum status system_init(int n_node, struct system *out)
 
 static enum status warping_init(int n_node, struct warping *out)
 {
-    double *g = calloc((size_t)n_node * N, sizeof *g);
+    double *g = calloc((size_t)n_node * WARPING_COLUMNS, sizeof *g);
     if (g == NULL) {
         return ST_NO_MEMORY;
     }

@@ -16,9 +16,17 @@ enum section_strain { S_W, S_PSI, S_PHI, S_THETA, S_THETA2, S_GXZ, S_GYZ, SECTIO
 enum { SECTION_CLASSIC = S_THETA2 + 1 };
 enum wall_strain { W_EPS, W_GAMMA, W_KAPPA, W_TWIST }; /* order of laminate.reduced */
 
+/* Column of the warping that theta'' stretches. */
+enum { WARPING_VLASOV = SECTION_STRAIN_COUNT, WARPING_COLUMNS };
+
 struct warping {
     int n_node;
-    double *g; /* g at the nodes per unit of each strain (n_node x SECTION_STRAIN_COUNT) */
+    /* g at the nodes per unit of each strain, then the warping that theta'' stretches: that of
+     * theta' with the shears it brings along (n_node x WARPING_COLUMNS). */
+    double *g;
+    /* gamma_xz, gamma_yz per unit theta' without shear force: the twist is about the shear centre.
+     * Zero in the classic set, whose curvatures follow the displacements themselves. */
+    double twist_shear[2];
     /* Energy of the transverse shear gamma_nz of the walls per unit of each pair of strains; zero
      * in the classic set. */
     double wall_shear[SECTION_STRAIN_COUNT * SECTION_STRAIN_COUNT];
@@ -30,9 +38,12 @@ MUST_CHECK enum status warping_solve(const struct contour *c, const struct lamin
                                      struct warping *classic, struct warping *retained);
 void warping_done(struct warping *w);
 
-/* Warping of unit strain k at a point of an element. */
+/* Warping of unit strain k (or WARPING_VLASOV) at a point of an element. */
 double warping_at(const struct warping *w, const struct contour_element *el,
                   const struct contour_point *p, int k);
+
+/* Slope of the same warping across the wall: n times this is added to the axial displacement. */
+double warping_across(const struct warping *w, const struct contour_point *p);
 
 /* Wall strains at a point of an element per unit of every beam strain:
  * e (WALL_STRAINS x SECTION_STRAIN_COUNT), column-major. Eqs. (A.5)-(A.12). */
