@@ -49,6 +49,37 @@ double *built_static(const struct model *m, const double *f)
     return x;
 }
 
+void built_section(const struct shape *shape, struct model *out)
+{
+    static struct case_def def; /* large */
+    case_def_defaults(&def);
+    def.kind = CASE_SECTION;
+    def.beam.section.shape = *shape;
+    built_model(&def, out);
+}
+
+void built_answer(const struct model *m, struct static_result *out)
+{
+    require(statics_run(m, out), m->def.name, NULL);
+}
+
+struct beam_motion built_tip(const struct case_def *def)
+{
+    struct model m;
+    struct static_result r;
+    built_model(def, &m);
+    built_answer(&m, &r);
+    const struct beam_motion tip = r.tip;
+    statics_done(&r);
+    model_done(&m);
+    return tip;
+}
+
+double built_hz(const struct model *m, int j)
+{
+    return m->modes.omega[j] / (2.0 * NUM_PI);
+}
+
 struct sim *built_run(const struct case_def *def)
 {
     struct failure fail = {0};

@@ -5,6 +5,7 @@
 #ifndef AEROM_TESTS_VERIFY_BUILT_H
 #define AEROM_TESTS_VERIFY_BUILT_H
 
+#include "core/analysis/statics.h"
 #include "core/sim.h"
 
 /* model_build that must succeed; free with model_done. */
@@ -16,6 +17,18 @@ double built_frequency(const struct model *m, int share, int number);
 
 /* Displacements (n_dof), malloc'ed, under a load vector f (n_dof). */
 double *built_static(const struct model *m, const double *f);
+
+/* Model (CASE_SECTION) of a shape alone; free with model_done. */
+void built_section(const struct shape *shape, struct model *out);
+
+/* Static answer of a model of CASE_STATIC; free with statics_done. */
+void built_answer(const struct model *m, struct static_result *out);
+
+/* Tip motion of a static case. */
+struct beam_motion built_tip(const struct case_def *def);
+
+/* Frequency [Hz] of mode number j (0 first). */
+double built_hz(const struct model *m, int j);
 
 /* A simulation that must run; destroy with sim_destroy. */
 struct sim *built_run(const struct case_def *def);
