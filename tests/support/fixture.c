@@ -138,7 +138,9 @@ static void fill_random(int n, double size, uint64_t *state, double *x)
 struct network_def fixture_network(int hidden, double size, uint64_t seed)
 {
     enum { IN = 4, OUT = 2 };
-    static const double scale[IN] = {0.2, 0.1, 0.05, 0.02};
+    /* The acceleration counts little: the loads act on the acceleration they depend on, and above a
+     * sensitivity of about 0.02 per unit the march at 2e-4 s answers with a step-to-step zigzag. */
+    static const double scale[IN] = {0.2, 0.1, 0.05, 2.0};
     struct network_def d = {.name = "random",
                             .n_in = IN,
                             .n_hidden = hidden,

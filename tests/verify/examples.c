@@ -87,7 +87,9 @@ static void fill(struct check_list *list)
 const struct check_group group_examples = {
     .name = "examples",
     .title = "Agreement of the integrators",
-    .text = "Largest difference of the tip twist between `exponential` and `rk4_adaptive` "
-            "(tolerance 1e-10) over the first second, relative to the range of the twist.",
+    .text =
+        "Largest difference of the tip twist between `exponential` and `rk4_adaptive` "
+        "(tolerance 1e-10) over the first second, relative to the range of the twist. The network "
+        "is random, 4-50-2, with little weight on the acceleration.",
     .fill = fill,
 };
