@@ -102,20 +102,19 @@ static void principal(const double ei[4], struct centres *out)
 
 enum status centres_find(const struct section *s, struct centres *out)
 {
-    static const int twist[2] = {S_THETA, S_THETA2}, bending[2] = {S_PSI, S_PHI};
-    static const int axial_bending[3] = {S_W, S_PSI, S_PHI}, others[3] = {S_W, S_THETA, S_THETA2};
-    static const int axial[1] = {S_W}, torsion[1] = {S_THETA};
-    static const int not_axial[4] = {S_PSI, S_PHI, S_THETA, S_THETA2};
-    static const int not_torsion[3] = {S_W, S_PSI, S_PHI};
+    /* theta'' is not among what is let free: far from the ends of a beam it is zero. */
+    static const int axial_bending[3] = {S_W, S_PSI, S_PHI}, bending[2] = {S_PSI, S_PHI};
+    static const int torsion[1] = {S_THETA}, not_bending[2] = {S_W, S_THETA};
     struct centres c = {0};
     double f[FLEX * FLEX], ab[9], ei[4], referred[C * C];
     enum status st = flexibility(s, f);
     if (st == ST_OK) {
-        st = released(s->classic, 3, axial_bending, 2, twist, ab);
+        st = released(s->classic, 3, axial_bending, 1, torsion, ab);
     }
     if (st != ST_OK) {
         return st;
     }
+    c.ea = ab[0];
     /* Unit w' makes moments -x N about psi' and y N about phi'. */
     c.tension_x = -ab[1] / ab[0];
     c.tension_y = ab[2] / ab[0];
@@ -123,12 +122,9 @@ enum status centres_find(const struct section *s, struct centres *out)
     c.shear_x = -f[num_at(F_THETA, F_GYZ, FLEX)] / f[num_at(F_THETA, F_THETA, FLEX)];
     c.shear_y = f[num_at(F_THETA, F_GXZ, FLEX)] / f[num_at(F_THETA, F_THETA, FLEX)];
     refer(s, c.tension_x, c.tension_y, c.shear_x, c.shear_y, referred);
-    st = released(s->classic, 2, bending, 3, others, ei);
+    st = released(s->classic, 2, bending, 2, not_bending, ei);
     if (st == ST_OK) {
-        st = released(s->classic, 1, axial, 4, not_axial, &c.ea);
-    }
-    if (st == ST_OK) {
-        st = released(s->classic, 1, torsion, 3, not_torsion, &c.gj);
+        st = released(s->classic, 1, torsion, 3, axial_bending, &c.gj);
     }
     if (st != ST_OK) {
         return st;

@@ -8,7 +8,7 @@
 #include "core/structure/section.h"
 
 struct centres {
-    double ea;                   /* axial stiffness, everything else free [N] */
+    double ea;                   /* axial stiffness at the tension centre, twist free [N] */
     double tension_x, tension_y; /* an axial force there bends the beam in no plane [m] */
     double shear_x, shear_y;     /* a transverse force there does not twist the section [m] */
     double mass_x, mass_y;       /* centre of mass [m] */

@@ -101,12 +101,13 @@ out:
     return st;
 }
 
-/* Schur complement of the classic matrix on the kept strains. */
+/* Schur complement of the classic matrix on the kept strains. theta'' is held: far from the ends of
+ * a beam it is zero. */
 static enum status condense(const double *full, int n_keep, const int *keep, double *out)
 {
     enum { C = SECTION_CLASSIC };
     int drop[C], n_drop = 0;
-    for (int i = 0; i < C; i++) {
+    for (int i = 0; i < S_THETA2; i++) {
         bool kept = false;
         for (int k = 0; k < n_keep; k++) {
             kept = kept || keep[k] == i;

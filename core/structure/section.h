@@ -28,8 +28,8 @@ struct section {
 MUST_CHECK enum status section_build(const struct contour *c, const struct laminate *laminate,
                                      struct section *out);
 
-/* What designers read off the classic matrix: each stiffness with axial force and warping free and
- * the curvature in the other plane free. [N m^2] */
+/* What designers read off the classic matrix: each stiffness with axial force and the curvature
+ * in the other plane free, theta'' zero. [N m^2] */
 struct section_summary {
     double ei_flap;    /* against -v'', theta' held at zero */
     double ei_lag;     /* against u'', theta' held at zero */
