@@ -50,6 +50,8 @@ struct check_group {
 #define CHECK_GROUPS(X)                                                                            \
     X(beams)                                                                                       \
     X(sections)                                                                                    \
+    X(strips)                                                                                      \
+    X(stations)                                                                                    \
     X(boxes)                                                                                       \
     X(open_sections)                                                                               \
     X(lifting_line)                                                                                \
