@@ -52,6 +52,8 @@ struct check_group {
     X(sections)                                                                                    \
     X(strips)                                                                                      \
     X(stations)                                                                                    \
+    X(loads)                                                                                       \
+    X(shear)                                                                                       \
     X(boxes)                                                                                       \
     X(open_sections)                                                                               \
     X(lifting_line)                                                                                \
