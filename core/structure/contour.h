@@ -15,8 +15,14 @@ struct contour_element {
     int laminate; /* index into the caller's laminates */
 };
 
+/* May the normal of a wall turn against the wall (transverse shear gamma_nz of its ply stack)?
+ * Rigid: Kirchhoff, gamma_nz = 0 in torsion (default). Flexible: Reissner-Mindlin, what a soft core
+ * asks for; it frees the edges of an open wall over a length of their thickness. */
+enum wall_shear { WALL_SHEAR_RIGID, WALL_SHEAR_FLEXIBLE };
+
 struct contour {
     int n_node;
+    enum wall_shear shear;
     int n_element;
     struct contour_element *element; /* (n_element) */
 };

@@ -9,37 +9,6 @@
 
 enum { N = SECTION_STRAIN_COUNT };
 
-/* Stiffness of the first n_strain strains, (A.33) with the warping at its minimum. */
-static void integrate_stiffness(const struct contour *c, const struct laminate *lam,
-                                const struct warping *w, int n_strain, double *out)
-{
-    for (int a = 0; a < n_strain; a++) {
-        for (int b = 0; b < n_strain; b++) {
-            out[a + n_strain * b] = w->wall_shear[num_at(a, b, N)];
-        }
-    }
-    for (int i = 0; i < c->n_element; i++) {
-        const struct contour_element *el = &c->element[i];
-        const struct laminate *l = &lam[el->laminate];
-        for (int q = 0; q < CONTOUR_GAUSS; q++) {
-            const struct contour_point p = contour_at(el, contour_gauss_point[q]);
-            const double weight = contour_gauss_weight[q] * p.jacobian;
-            double e[WALL_STRAINS * N];
-            warping_strains(w, el, &p, e);
-            for (int a = 0; a < n_strain; a++) {
-                for (int b = 0; b < n_strain; b++) {
-                    double sum = 0.0;
-                    for (int r = 0; r < WALL_STRAINS; r++) {
-                        sum += e[WALL_STRAINS * a + r] *
-                               warping_flow(l->reduced, r, e + WALL_STRAINS * (ptrdiff_t)b);
-                    }
-                    out[a + n_strain * b] += weight * sum;
-                }
-            }
-        }
-    }
-}
-
 /* (A.35): velocities of a wall point at n are linear in (u v w v' u' theta theta'), (A.1)-(A.3). */
 static void integrate_mass(const struct contour *c, const struct laminate *lam,
                            const struct warping *w, double *out)
@@ -60,7 +29,7 @@ static void integrate_mass(const struct contour *c, const struct laminate *lam,
             const double slope[3][U] = {
                 {[M_THETA] = p.dx},
                 {[M_THETA] = p.dy},
-                {[M_DU] = -p.dy, [M_DV] = p.dx, [M_DTHETA] = warping_across(w, &p)}};
+                {[M_DU] = -p.dy, [M_DV] = p.dx, [M_DTHETA] = warping_across(w, el, &p)}};
             for (int a = 0; a < U; a++) {
                 for (int b = 0; b < U; b++) {
                     double sum = 0.0;
@@ -85,8 +54,8 @@ enum status section_build(const struct contour *c, const struct laminate *lamina
     if (st != ST_OK) {
         return st;
     }
-    integrate_stiffness(c, laminate, &classic, SECTION_CLASSIC, s.classic);
-    integrate_stiffness(c, laminate, &retained, N, s.stiffness);
+    warping_stiffness(c, laminate, &classic, SECTION_CLASSIC, s.classic);
+    warping_stiffness(c, laminate, &retained, N, s.stiffness);
     integrate_mass(c, laminate, &classic, s.mass);
     integrate_mass(c, laminate, &retained, s.mass_retained);
     if (!num_all_finite(SECTION_CLASSIC * SECTION_CLASSIC, s.classic) ||

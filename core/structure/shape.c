@@ -177,7 +177,7 @@ enum status shape_build(const struct shape *s, struct contour *contour,
     struct shape_wall wall[LIMIT_WALLS];
     int n_point = 0;
     const int n_wall = walls_of(s, point, wall, &n_point);
-    struct contour c = {.n_element = n_wall * s->contour_elements};
+    struct contour c = {.n_element = n_wall * s->contour_elements, .shear = s->wall_shear};
     c.element = calloc((size_t)c.n_element, sizeof *c.element);
     if (c.element == NULL) {
         return ST_NO_MEMORY;
@@ -203,7 +203,7 @@ bool shape_same(const struct shape *a, const struct shape *b)
 {
     bool same = a->type == b->type && a->n_layup == b->n_layup && a->n_point == b->n_point &&
                 a->n_wall == b->n_wall && a->chordwise == b->chordwise &&
-                a->contour_elements == b->contour_elements;
+                a->wall_shear == b->wall_shear && a->contour_elements == b->contour_elements;
     for (int w = 0; w < a->n_wall && same; w++) {
         const struct shape_wall *p = &a->wall[w], *q = &b->wall[w];
         same =

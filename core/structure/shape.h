@@ -49,6 +49,7 @@ struct shape {
     struct shape_wall wall[LIMIT_WALLS];
     int cells; /* closed cells the user says there are, -1 when not said */
     enum chordwise_curvature chordwise;
+    enum wall_shear wall_shear;
     int contour_elements; /* finite elements: of a strip or of each wall */
 };
 

@@ -193,8 +193,10 @@ static void check_crossings(const struct shape *s, const struct report *r)
     }
 }
 
-static void check_names(const struct shape *s, const struct report *r)
+/* False when walls cannot be told by their layups. */
+static bool check_names(const struct shape *s, const struct report *r)
 {
+    const int before = r->out->total;
     for (int l = 0; l < s->n_layup; l++) {
         for (int k = 0; k < l; k++) {
             if (strcmp(s->layup[l].name, s->layup[k].name) == 0) {
@@ -203,6 +205,7 @@ static void check_names(const struct shape *s, const struct report *r)
             }
         }
     }
+    return r->out->total == before;
 }
 
 void shape_check(const struct shape *s, const char *pointer, struct failure_list *out)
@@ -212,8 +215,7 @@ void shape_check(const struct shape *s, const char *pointer, struct failure_list
         check_box(s, &r);
     }
     if (s->type == SECTION_CONTOUR) {
-        check_names(s, &r);
-        if (!check_walls(s, &r)) {
+        if (!check_names(s, &r) || !check_walls(s, &r)) {
             return;
         }
         check_connected(s, &r);

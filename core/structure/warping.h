@@ -21,14 +21,16 @@ enum { WARPING_VLASOV = SECTION_STRAIN_COUNT, WARPING_COLUMNS };
 
 struct warping {
     int n_node;
-    /* g at the nodes per unit of each strain, then the warping that theta'' stretches: that of
-     * theta' with the shears it brings along (n_node x WARPING_COLUMNS). */
+    int n_value; /* n_node, or twice as many with WALL_SHEAR_FLEXIBLE */
+    /* g at the nodes, then, with flexible walls, the turn beta of their normals, per unit of each
+     * strain; last the warping that theta'' stretches: that of theta' with the shears it brings
+     * along (n_value x WARPING_COLUMNS). A wall point at n moves along z by g + n beta. */
     double *g;
     /* gamma_xz, gamma_yz per unit theta' without shear force: the twist is about the shear centre.
      * Zero in the classic set, whose curvatures follow the displacements themselves. */
     double twist_shear[2];
-    /* Energy of the transverse shear gamma_nz of the walls per unit of each pair of strains; zero
-     * in the classic set. */
+    /* Energy of the transverse shear gamma_nz of the walls per unit of each pair of strains, as far
+     * as it is not in warping_normal_shear; zero in the classic set. */
     double wall_shear[SECTION_STRAIN_COUNT * SECTION_STRAIN_COUNT];
 };
 
@@ -43,15 +45,34 @@ double warping_at(const struct warping *w, const struct contour_element *el,
                   const struct contour_point *p, int k);
 
 /* Slope of the same warping across the wall: n times this is added to the axial displacement. */
-double warping_across(const struct warping *w, const struct contour_point *p);
+double warping_across(const struct warping *w, const struct contour_element *el,
+                      const struct contour_point *p);
+
+/* Transverse shear gamma_nz at a point per unit of strain k, Eq. (A.7) and the turn of the normal;
+ * zero with rigid walls, whose shear energy is wall_shear. */
+double warping_normal_shear(const struct warping *w, const struct contour_element *el,
+                            const struct contour_point *p, int k);
 
 /* Wall strains at a point of an element per unit of every beam strain:
  * e (WALL_STRAINS x SECTION_STRAIN_COUNT), column-major. Eqs. (A.5)-(A.12). */
 void warping_strains(const struct warping *w, const struct contour_element *el,
                      const struct contour_point *p, double *e);
 
+/* What the minimisation itself starts from: the wall strains of unit strain k without the warping's
+ * own slope, and gamma_nz of the section's shears alone, Eq. (A.7).
+ * DEVIATION (A.6): gamma_sz contains theta', the print has phi'. `stretched` is the warping that
+ * theta'' stretches at the point, `across` its slope across the wall. */
+void warping_bare_strain(const struct contour_point *p, int k, double stretched, double across,
+                         double e[WALL_STRAINS]);
+double warping_bare_normal_shear(const struct contour_point *p, int k);
+
 /* Entry `row` of reduced (WALL_STRAINS x WALL_STRAINS) times e. */
 double warping_flow(const double *reduced, int row, const double e[WALL_STRAINS]);
+
+/* Stiffness of the section for the first n_strain strains (n_strain x n_strain), column-major:
+ * (A.33) with the warping at its minimum. */
+void warping_stiffness(const struct contour *c, const struct laminate *laminate,
+                       const struct warping *w, int n_strain, double *out);
 
 /* Three-point Gauss rule of the contour elements. */
 enum { CONTOUR_GAUSS = 3 };
