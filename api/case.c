@@ -3,6 +3,7 @@
 #include "api/case_fields.h"
 #include "api/hash.h"
 #include "api/json.h"
+#include "core/coupling/model.h"
 
 #include <assert.h>
 #include <cjson/cJSON.h>
@@ -15,7 +16,7 @@ _Static_assert(sizeof(enum case_kind) == sizeof(int), "an enum is an int");
 
 const char *case_kind_name(enum case_kind kind)
 {
-    assert((unsigned)kind <= CASE_SECTION);
+    assert((unsigned)kind < CASE_KIND_COUNT);
     return case_kind_names[kind];
 }
 
@@ -46,6 +47,25 @@ static bool is_within(const char *inner, const char *outer)
     return strncmp(inner, outer, n) == 0 && (inner[n] == '\0' || inner[n] == '/');
 }
 
+/* Whether a finding of the core only follows from a problem that is known. */
+static bool follows(const char *found, const char *known)
+{
+    /* What was not read because of a problem beside it. */
+    static const struct {
+        const char *known, *found;
+    } beside[] = {{"/type", "/"}, {"/beam/stations", "/beam/section"}};
+    const size_t n = strlen(known);
+    for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++) {
+        const size_t end = strlen(beside[i].known), parent = n > end ? n - end : 0;
+        if (n >= end && strcmp(known + parent, beside[i].known) == 0 &&
+            strncmp(found, known, parent) == 0 &&
+            strncmp(found + parent, beside[i].found, strlen(beside[i].found)) == 0) {
+            return true;
+        }
+    }
+    return is_within(found, known) || is_within(known, found);
+}
+
 /* Adds what the core finds, except about members that are already reported: their value is only a
  * default there. */
 static enum status check_physics(const struct case_def *def, const char *prefix,
@@ -65,8 +85,7 @@ static enum status check_physics(const struct case_def *def, const char *prefix,
         (void)snprintf(pointer, sizeof pointer, "%s%s", prefix, f->pointer);
         bool known = false;
         for (int j = 0; j < last; j++) {
-            known = known || is_within(pointer, problems->item[j].pointer) ||
-                    is_within(problems->item[j].pointer, pointer);
+            known = known || follows(pointer, problems->item[j].pointer);
         }
         if (!known) {
             failure_set(failure_add(problems), f->status, pointer, f->code, f->expected, f->got,
@@ -75,6 +94,40 @@ static enum status check_physics(const struct case_def *def, const char *prefix,
     }
     free(found);
     return ST_OK;
+}
+
+/* A trial build, once everything else is in order: sections that cannot carry load are refused
+ * before any work is queued. */
+static enum status try_sections(const struct case_def *def, const char *prefix,
+                                struct failure_list *problems)
+{
+    struct failure_list *found = calloc(1, sizeof *found);
+    if (found == NULL) {
+        return ST_NO_MEMORY;
+    }
+    const enum status st = model_try_sections(&def->beam, found);
+    for (int i = 0; i < found->count; i++) {
+        const struct failure *f = &found->item[i];
+        char pointer[2 * sizeof f->pointer];
+        (void)snprintf(pointer, sizeof pointer, "%s%s", prefix, f->pointer);
+        failure_set(failure_add(problems), ST_INVALID, pointer, f->code, f->expected, f->got, "%s",
+                    f->detail);
+    }
+    free(found);
+    return st;
+}
+
+/* Properties of every ply, in order: the canonical text only has the names of library materials. */
+static void write_materials(struct json_out *out, const struct api_case *c)
+{
+    const struct section_def *s = NULL;
+    for (int i = 0; (s = case_section(c, i)) != NULL; i++) {
+        for (int l = 0; l < s->shape.n_layup; l++) {
+            for (int k = 0; k < s->shape.layup[l].n_ply; k++) {
+                material_write(out, &s->shape.layup[l].ply[k].material);
+            }
+        }
+    }
 }
 
 /* Canonical text, and over it, without the label, the identity. */
@@ -88,9 +141,7 @@ static enum status identify(struct api_case *c)
     struct json_out identity = {0};
     field_write(&identity, case_fields, kind, c);
     json_string(&identity, AEROM_CORE_VERSION);
-    for (int i = 0; i < c->def.beam.section.shape.layup[0].n_ply; i++) {
-        material_write(&identity, &c->def.beam.section.shape.layup[0].ply[i].material);
-    }
+    write_materials(&identity, c);
     const bool flows = c->def.kind == CASE_SIMULATION;
     json_string(&identity, flows ? c->def.aero.polar->hash : NULL);
     json_string(&identity, flows && c->def.aero.network != NULL ? c->def.aero.network->hash : NULL);
@@ -132,6 +183,9 @@ enum status api_case_from_tree(const struct library *lib, const struct cJSON *tr
      * full, what is reported already cannot be told. */
     if (r.kind != CASE_OF_NO_KIND && problems->count < FAILURE_LIST_MAX) {
         st = check_physics(&c->def, prefix, problems);
+    }
+    if (st == ST_OK && problems->total == before) {
+        st = try_sections(&c->def, prefix, problems);
     }
     if (st == ST_OK && problems->total > before) {
         st = ST_INVALID;
@@ -180,6 +234,7 @@ void api_case_destroy(struct api_case *c)
 {
     if (c != NULL) {
         entry_set_done(&c->local);
+        free(c->station);
         free(c->canonical);
         free(c);
     }

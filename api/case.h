@@ -1,8 +1,8 @@
 /* api/case.h
  * A case document (contract, "A case"): JSON -> checked case_def, canonical text and identity.
  *
- * An api_case owns its materials, local polars and networks; library entries are borrowed, so the
- * library must outlive it. Immutable after parsing. */
+ * An api_case owns its stations, materials, local polars and networks; library entries are
+ * borrowed, so the library must outlive it. Immutable after parsing. */
 #ifndef AEROM_API_CASE_H
 #define AEROM_API_CASE_H
 
@@ -12,7 +12,7 @@
 struct api_case;
 struct cJSON;
 
-/* "simulation" "modes" "section". */
+/* "simulation" "modes" "section" "static". */
 const char *case_kind_name(enum case_kind kind);
 bool case_kind_parse(const char *name, enum case_kind *out);
 

@@ -1,5 +1,6 @@
 #include "api/case_fields.h"
 
+#include "api/beam_fields.h"
 #include "api/case_refs.h"
 #include "api/channel.h"
 #include "core/num.h"
@@ -11,9 +12,6 @@
 static const struct field_range version = {.min = 1, .max = 1};
 static const struct field_range positive = {.min = 0.0, .max = ANY, .above_min = true};
 static const struct field_range not_negative = {.min = 0.0, .max = ANY};
-static const struct field_range elements = {.min = 1, .max = LIMIT_ELEMENTS};
-static const struct field_range contour_elements = {.min = 1, .max = LIMIT_CONTOUR_ELEMENTS};
-static const struct field_range ply_angle = {.min = -180.0, .max = 180.0};
 static const struct field_range incidence = {.min = -90.0, .max = 90.0};
 static const struct field_range modes = {.min = 1, .max = LIMIT_MODES};
 static const struct field_range iterations = {.min = 1, .max = 1000};
@@ -27,14 +25,11 @@ static const struct field_range share = {.min = 0.0, .max = 1.0};
 static const struct field_range sampling = {.min = 1, .max = LIMIT_STEPS};
 
 /* By the enums of core. */
-const char *const case_kind_names[] = {
-    [CASE_SIMULATION] = "simulation", [CASE_MODES] = "modes", [CASE_SECTION] = "section", NULL};
-static const char *const section_names[] = {[SECTION_STRIP] = "strip", NULL};
-static const char *const chordwise_names[] = {
-    [CHORDWISE_FREE] = "free", [CHORDWISE_RIGID] = "rigid", NULL};
-static const char *const shear_names[] = {[SHEAR_CONDENSED] = "condensed", NULL};
-static const char *const warping_names[] = {
-    [ROOT_WARPING_RESTRAINED] = "restrained", [ROOT_WARPING_FREE] = "free", NULL};
+const char *const case_kind_names[] = {[CASE_SIMULATION] = "simulation",
+                                       [CASE_MODES] = "modes",
+                                       [CASE_SECTION] = "section",
+                                       [CASE_STATIC] = "static",
+                                       NULL};
 static const char *const dynamic_names[] = {
     [DYNAMIC_NONE] = "none", [DYNAMIC_NETWORK] = "network", NULL};
 static const char *const wall_names[] = {
@@ -66,51 +61,11 @@ static const char *const start_names[] = {[START_REST] = "rest",
         .key = (key_), .kind = FIELD_OBJECT, .fields = (fields_), __VA_ARGS__                      \
     }
 
-enum { ALL = 0, SIMULATION = CASE_IN_SIMULATION, BEAM = CASE_IN_SIMULATION | CASE_IN_MODES };
-
-static const struct field ply_fields[] = {
-    {.key = "material",
-     .kind = FIELD_CUSTOM,
-     .required = true,
-     .read = case_read_ply_material,
-     .write = case_write_ply_material},
-    {.key = "angle_deg",
-     .kind = FIELD_NUMBER,
-     .offset = offsetof(struct ply, angle),
-     .unit = FIELD_DEGREE,
-     .range = &ply_angle},
-    {.key = "thickness_m",
-     .kind = FIELD_NUMBER,
-     .required = true,
-     .offset = offsetof(struct ply, thickness),
-     .range = &positive},
-    {0},
-};
-
-static const struct field section_fields[] = {
-    CHOICE("type", def.beam.section.shape.type, section_names, .required = true),
-    NUMBER("chord_m", def.beam.section.shape.width, ALL, positive, .required = true),
-    {.key = "layup",
-     .kind = FIELD_LIST,
-     .required = true,
-     .offset = AT(def.beam.section.shape.layup[0].ply),
-     .size = sizeof(struct ply),
-     .fields = ply_fields,
-     .count = AT(def.beam.section.shape.layup[0].n_ply),
-     .min = 1,
-     .max = LIMIT_PLIES},
-    CHOICE("chordwise_curvature", def.beam.section.shape.chordwise, chordwise_names, .kinds = ALL),
-    CHOICE("shear", def.beam.section.shear, shear_names, .kinds = ALL),
-    INTEGER("contour_elements", def.beam.section.shape.contour_elements, ALL, contour_elements),
-    {0},
-};
-
-static const struct field beam_fields[] = {
-    NUMBER("length_m", def.beam.length, BEAM, positive, .required = true),
-    INTEGER("elements", def.beam.elements, BEAM, elements),
-    CHOICE("root_warping", def.beam.root_warping, warping_names, .kinds = BEAM),
-    OBJECT("section", section_fields, .required = true),
-    {0},
+enum {
+    ALL = 0,
+    SIMULATION = CASE_IN_SIMULATION,
+    MODAL = CASE_IN_SIMULATION | CASE_IN_MODES,
+    STATIC = CASE_IN_STATIC
 };
 
 static const struct field flow_fields[] = {
@@ -197,7 +152,7 @@ static const struct field stop_fields[] = {
 };
 
 static const struct field solver_fields[] = {
-    INTEGER("modes", def.solver.modes, BEAM, modes),
+    INTEGER("modes", def.solver.modes, MODAL, modes),
     NUMBER("time_step_s", def.solver.time_step, SIMULATION, positive, .unit = 1.0),
     NUMBER("duration_s", def.solver.duration, SIMULATION, positive, .required = true),
     CHOICE("integrator", def.solver.integrator, integrator_names, .kinds = SIMULATION),
@@ -205,6 +160,13 @@ static const struct field solver_fields[] = {
     INTEGER("load_order", def.solver.load_order, SIMULATION, load_order),
     OBJECT("start", start_fields, .kinds = SIMULATION),
     NUMBER("modal_damping_ratio", def.solver.modal_damping, SIMULATION, damping, .unit = 1.0),
+    {.key = "modal_damping_ratios",
+     .kind = FIELD_ARRAY,
+     .kinds = SIMULATION,
+     .offset = AT(def.solver.mode_damping),
+     .count = AT(def.solver.n_mode_damping),
+     .max = LIMIT_MODES,
+     .range = &damping},
     OBJECT("stop", stop_fields, .kinds = SIMULATION),
     {0},
 };
@@ -221,6 +183,13 @@ static const struct field output_fields[] = {
     INTEGER("sample_every", def.output.sample_every, SIMULATION, sampling),
     NUMBER("mean_window_s", def.output.mean_window, SIMULATION, positive, .unit = 1.0),
     NUMBER("modal_window_s", def.output.modal_window, SIMULATION, positive, .unit = 1.0),
+    {.key = "stress_at_m",
+     .kind = FIELD_ARRAY,
+     .kinds = STATIC,
+     .offset = AT(def.output.stress),
+     .count = AT(def.output.n_stress),
+     .max = LIMIT_STRESS_POSITIONS,
+     .range = &not_negative},
     {0},
 };
 
@@ -254,10 +223,11 @@ const struct field case_fields[] = {
      .omit = case_has_no_own_network,
      .read = case_read_networks,
      .write = case_write_networks},
-    OBJECT("beam", beam_fields, .required = true),
+    OBJECT("beam", beam_fields, .required = true, .finish = beam_finish),
+    OBJECT("loads", loads_fields, .kinds = STATIC),
     OBJECT("flow", flow_fields, .required = true, .kinds = SIMULATION),
     OBJECT("aerodynamics", aerodynamics_fields, .required = true, .kinds = SIMULATION),
-    OBJECT("solver", solver_fields, .required = true, .kinds = BEAM),
-    OBJECT("output", output_fields, .kinds = SIMULATION),
+    OBJECT("solver", solver_fields, .required = true, .kinds = MODAL),
+    OBJECT("output", output_fields, .kinds = SIMULATION | STATIC),
     {0},
 };

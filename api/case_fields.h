@@ -10,7 +10,8 @@
 struct api_case {
     int schema_version;
     struct case_def def;
-    struct entry_set local; /* definitions inside the case */
+    struct station_def *station; /* (def.beam.n_station), owned; def.beam points here */
+    struct entry_set local;      /* definitions inside the case */
     const struct library *library;
     char *canonical;
     char hash[LIMIT_HASH];
@@ -21,11 +22,16 @@ enum case_group {
     CASE_IN_SIMULATION = 1u << CASE_SIMULATION,
     CASE_IN_MODES = 1u << CASE_MODES,
     CASE_IN_SECTION = 1u << CASE_SECTION,
+    CASE_IN_STATIC = 1u << CASE_STATIC,
+    CASE_WITH_BEAM = CASE_IN_SIMULATION | CASE_IN_MODES | CASE_IN_STATIC,
     CASE_LABEL = 1u << 8,
     CASE_OF_NO_KIND = 1u << 9 /* only what every kind needs can be asked for */
 };
 
 extern const char *const case_kind_names[]; /* ends with NULL */
 extern const struct field case_fields[];    /* of struct api_case; r->context is the case itself */
+
+/* Section i of the beam: its only one, or those of its stations; NULL past the last. */
+const struct section_def *case_section(const struct api_case *c, int i);
 
 #endif

@@ -144,14 +144,34 @@ void case_read_networks(struct reader *r, const struct cJSON *json, void *base)
     (void)entry_read_list(r, json, &((struct api_case *)base)->local, entry_read_network);
 }
 
+const struct section_def *case_section(const struct api_case *c, int i)
+{
+    const struct beam_def *b = &c->def.beam;
+    if (b->n_station > 0) {
+        return i < b->n_station ? &b->station[i].section : NULL;
+    }
+    return i == 0 ? &b->section : NULL;
+}
+
+static bool layup_uses(const struct layup *l, const struct material *m)
+{
+    bool used = false;
+    for (int i = 0; i < l->n_ply; i++) {
+        used = used || strcmp(l->ply[i].material.name, m->name) == 0;
+    }
+    return used;
+}
+
 static bool uses_material(const struct api_case *c, const struct material *m)
 {
-    for (int i = 0; i < c->def.beam.section.shape.layup[0].n_ply; i++) {
-        if (strcmp(c->def.beam.section.shape.layup[0].ply[i].material.name, m->name) == 0) {
-            return true;
+    const struct section_def *s = NULL;
+    bool used = false;
+    for (int i = 0; (s = case_section(c, i)) != NULL; i++) {
+        for (int l = 0; l < s->shape.n_layup; l++) {
+            used = used || layup_uses(&s->shape.layup[l], m);
         }
     }
-    return false;
+    return used;
 }
 
 bool case_has_no_own_material(const void *base)

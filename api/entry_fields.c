@@ -98,6 +98,18 @@ const char *network_output_name(enum network_output output)
         .offset = offsetof(struct material, member_), .range = (range_)                            \
     }
 
+/* All five or none, which material_check sees to. */
+#define STRENGTH(member_, key_)                                                                    \
+    {                                                                                              \
+        .key = (key_), .kind = FIELD_NUMBER, .omit = has_no_strength,                              \
+        .offset = offsetof(struct material, member_), .range = &positive                           \
+    }
+
+static bool has_no_strength(const void *base)
+{
+    return !material_has_strength(base);
+}
+
 const struct field material_fields[] = {
     {.key = "name",
      .kind = FIELD_TEXT,
@@ -111,6 +123,11 @@ const struct field material_fields[] = {
     MATERIAL(nu_lt, "nu_lt", NULL),
     MATERIAL(nu_tt, "nu_tt", &poisson),
     MATERIAL(density, "density_kg_m3", &positive),
+    STRENGTH(x_tension, "x_tension_pa"),
+    STRENGTH(x_compression, "x_compression_pa"),
+    STRENGTH(y_tension, "y_tension_pa"),
+    STRENGTH(y_compression, "y_compression_pa"),
+    STRENGTH(s_shear, "s_shear_pa"),
     {0},
 };
 

@@ -221,17 +221,38 @@ static void read_matrix(struct reader *r, const struct field *f, const cJSON *js
     }
 }
 
+/* Where the n elements of a list go; NULL when there is no memory (reported). */
+static char *elements_of(struct reader *r, const struct field *f, int n, void *base)
+{
+    if (!f->owned) {
+        return member(base, f->offset);
+    }
+    void *block = calloc(n > 0 ? (size_t)n : 1, f->size);
+    if (block == NULL) {
+        reader_no_memory(r);
+        return NULL;
+    }
+    void *old = NULL;
+    memcpy(&old, member(base, f->offset), sizeof old);
+    memcpy(member(base, f->offset), &block, sizeof block);
+    free(old);
+    return block;
+}
+
 static void read_list(struct reader *r, const struct field *f, const cJSON *json, void *base)
 {
     int *count = member(base, f->count);
     const int n = array_length(r, f, json, -1);
-    if (n < 0) {
+    char *element = n >= 0 ? elements_of(r, f, n, base) : NULL;
+    if (element == NULL) {
         return;
     }
-    char *element = member(base, f->offset);
     int i = 0;
     for (const cJSON *c = json->child; c != NULL; c = c->next, i++) {
         const size_t mark = reader_enter_index(r, i);
+        if (f->start != NULL) {
+            f->start(r, element + (size_t)i * f->size);
+        }
         field_read(r, f->fields, c, element + (size_t)i * f->size);
         reader_leave(r, mark);
     }
@@ -264,9 +285,22 @@ static void read_names(struct reader *r, const struct field *f, const cJSON *jso
     }
 }
 
-static void read_object(struct reader *r, const struct field *f, const cJSON *json, void *base)
+static void read_members(struct reader *r, const struct field *f, const struct field *fields,
+                         const cJSON *json, void *base)
 {
     const unsigned kind = r->kind;
+    if (f->kinds != 0 && (f->kinds & kind) == 0) {
+        r->kind = 0; /* it does not count here: nothing in it is required */
+    }
+    field_read(r, fields, json, base);
+    if (f->finish != NULL && (json == NULL || cJSON_IsObject(json))) {
+        f->finish(r, json, base);
+    }
+    r->kind = kind;
+}
+
+static void read_object(struct reader *r, const struct field *f, const cJSON *json, void *base)
+{
     if (f->nullable) {
         bool *given = member(base, f->offset);
         if (cJSON_IsNull(json)) {
@@ -275,14 +309,31 @@ static void read_object(struct reader *r, const struct field *f, const cJSON *js
         }
         *given = json != NULL || *given;
     }
-    if (f->kinds != 0 && (f->kinds & kind) == 0) {
-        r->kind = 0; /* it does not count here: nothing in it is required */
-    }
-    field_read(r, f->fields, json, base);
-    r->kind = kind;
+    read_members(r, f, f->fields, json, base);
 }
 
-static void read_value(struct reader *r, const struct field *f, const cJSON *json, void *base)
+static void read_variant(struct reader *r, const struct field *f, const cJSON *json, void *part)
+{
+    if (!expect(r, cJSON_IsObject(json), "an object", json)) {
+        return;
+    }
+    const cJSON *type = cJSON_GetObjectItemCaseSensitive(json, "type");
+    const size_t mark = reader_enter_key(r, "type");
+    int variant = -1;
+    if (type == NULL) {
+        reader_problem(r, "required", "a value", NULL, "\"type\" is missing");
+    } else {
+        variant = read_name(r, f->names, type);
+    }
+    reader_leave(r, mark);
+    /* Without its type nothing can be said about the rest. */
+    if (variant >= 0) {
+        f->choose(part, variant);
+        read_members(r, f, f->variants[variant], json, part);
+    }
+}
+
+void field_read_value(struct reader *r, const struct field *f, const struct cJSON *json, void *base)
 {
     int name = -1;
     switch (f->kind) {
@@ -303,6 +354,12 @@ static void read_value(struct reader *r, const struct field *f, const cJSON *jso
         break;
     case FIELD_OBJECT:
         read_object(r, f, json, base);
+        break;
+    case FIELD_PART:
+        read_members(r, f, f->fields, json, member(base, f->offset));
+        break;
+    case FIELD_VARIANT:
+        read_variant(r, f, json, member(base, f->offset));
         break;
     case FIELD_LIST:
         read_list(r, f, json, base);
@@ -330,7 +387,7 @@ static void read_member(struct reader *r, const struct field *f, const cJSON *js
         reader_problem(r, "unexpected", "no such member with the other values", json,
                        "the member does not apply here");
     } else if (json != NULL || (f->kind == FIELD_OBJECT && f->required && applies)) {
-        read_value(r, f, json, base);
+        field_read_value(r, f, json, base);
     } else if (f->required && f->kind != FIELD_OBJECT && applies && r->kind != 0 &&
                (f->kinds == 0 || (f->kinds & r->kind) != 0)) {
         reader_problem(r, "required", "a value", NULL, "\"%s\" is missing", f->key);

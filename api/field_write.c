@@ -39,6 +39,9 @@ static const double *pointer_at(const void *base, size_t offset)
 static void write_list(struct json_out *out, const struct field *f, unsigned kind, const void *base)
 {
     const char *element = member(base, f->offset);
+    if (f->owned) {
+        memcpy(&element, member(base, f->offset), sizeof element);
+    }
     json_array_begin(out);
     for (int i = 0; i < count_at(base, f->count); i++) {
         field_write(out, f->fields, kind, element + (size_t)i * f->size);
@@ -66,8 +69,7 @@ static void write_names(struct json_out *out, const struct field *f, const void 
     json_array_end(out);
 }
 
-static void write_value(struct json_out *out, const struct field *f, unsigned kind,
-                        const void *base)
+void field_write_value(struct json_out *out, const struct field *f, unsigned kind, const void *base)
 {
     switch (f->kind) {
     case FIELD_NUMBER:
@@ -88,6 +90,14 @@ static void write_value(struct json_out *out, const struct field *f, unsigned ki
         } else {
             field_write(out, f->fields, kind, base);
         }
+        break;
+    case FIELD_PART:
+        field_write(out, f->fields, kind, member(base, f->offset));
+        break;
+    case FIELD_VARIANT:
+        /* The enum stands where the table has its "type". */
+        field_write(out, f->variants[count_at(member(base, f->offset), f->variants[0]->offset)],
+                    kind, member(base, f->offset));
         break;
     case FIELD_LIST:
         write_list(out, f, kind, base);
@@ -118,7 +128,7 @@ void field_write_members(struct json_out *out, const struct field *fields, unsig
         const bool omitted = f->omit != NULL && f->omit(base);
         if (counts && !omitted && (f->applies == NULL || f->applies(base))) {
             json_key(out, f->key);
-            write_value(out, f, kind, base);
+            field_write_value(out, f, kind, base);
         }
     }
 }

@@ -20,10 +20,10 @@ static void write_reactions(struct json_out *out, const struct static_result *s)
     json_key(out, "reactions");
     json_object_begin(out);
     for (int d = 0; d < 3; d++) {
-        json_key_number(out, force[d], s->reaction_force[d]);
+        json_key_number(out, force[d], s->reaction_force[d] + 0.0); /* never -0 */
     }
     for (int d = 0; d < 3; d++) {
-        json_key_number(out, moment[d], s->reaction_moment[d]);
+        json_key_number(out, moment[d], s->reaction_moment[d] + 0.0);
     }
     json_object_end(out);
 }

@@ -23,6 +23,7 @@ const struct route route_table[] = {
     {"GET", "/v1/jobs/{id}/damping", handle_document, NULL, "damping"},
     {"GET", "/v1/jobs/{id}/modes", handle_document, NULL, "modes"},
     {"GET", "/v1/jobs/{id}/section", handle_document, NULL, "section"},
+    {"GET", "/v1/jobs/{id}/static", handle_document, NULL, "static"},
     {"GET", "/v1/jobs/{id}/summary", handle_document, NULL, "summary"},
     {"GET", "/v1/materials", handle_materials, NULL, NULL},
     {"GET", "/v1/materials/{name}", handle_materials, NULL, NULL},

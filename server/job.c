@@ -19,6 +19,7 @@ static const char *const kind_names[] = {
     [CASE_SIMULATION] = "simulation",
     [CASE_MODES] = "modes",
     [CASE_SECTION] = "section",
+    [CASE_STATIC] = "static",
 };
 
 bool job_move_allowed(enum job_state from, enum job_state to)

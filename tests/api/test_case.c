@@ -105,13 +105,15 @@ static void test_canonical_text(void **state)
         "\"elements\":16,\"root_warping\":\"restrained\",\"section\":{\"type\":\"strip\","
         "\"chord_m\":0.1,\"layup\":[{\"material\":\"AS4/3501-6\",\"angle_deg\":-45,"
         "\"thickness_m\":0.00013},{\"material\":\"foam\",\"angle_deg\":0,\"thickness_m\":0.00387}],"
-        "\"chordwise_curvature\":\"free\",\"shear\":\"condensed\",\"contour_elements\":16}},"
+        "\"chordwise_curvature\":\"free\",\"shear\":\"condensed\",\"contour_elements\":16,"
+        "\"twist_deg\":0},\"masses\":[],\"gravity_m_s2\":{\"x\":0,\"y\":0,\"z\":0}},"
         "\"flow\":{\"speed_m_s\":6,\"density_kg_m3\":1.225,\"kinematic_viscosity_m2_s\":1.5e-05,"
         "\"incidence_deg\":0},\"aerodynamics\":{\"polar\":\"plate-4pct-channel\",\"dynamic\":{"
         "\"type\":\"none\"},\"lifting_line\":{\"walls\":\"root\",\"tolerance\":1e-09,"
         "\"iterations_max\":50}},\"solver\":{\"modes\":4,\"time_step_s\":0.0002,\"duration_s\":3,"
         "\"integrator\":\"exponential\",\"tolerance\":1e-09,\"load_order\":1,\"start\":{\"type\":"
-        "\"rest\"},\"modal_damping_ratio\":0,\"stop\":{\"twist_max_deg\":60,"
+        "\"rest\"},\"modal_damping_ratio\":0,\"modal_damping_ratios\":[],\"stop\":{\"twist_max_"
+        "deg\":60,"
         "\"plunge_max_lengths\":1,\"outside_polar_max\":1}},\"output\":{\"channels\":["
         "\"tip_plunge_m\",\"tip_twist_deg\",\"cl\",\"cm\",\"cd\"],\"sample_every\":1,"
         "\"mean_window_s\":1,\"modal_window_s\":0.2}}");
@@ -360,13 +362,12 @@ static void test_all_problems_at_once(void **state)
 {
     struct fixture *f = *state;
     assert_null(parse(f, "{" HEAD ",\"beam\":{\"length_m\":-1,\"elements\":0,\"color\":1,"
-                         "\"section\":{\"type\":\"box\",\"chord_m\":0,\"layup\":["
+                         "\"section\":{\"type\":\"strip\",\"chord_m\":0,\"layup\":["
                          "{\"material\":\"balsa\",\"thickness_m\":0}]}},"
                          "\"flow\":{\"speed_m_s\":0}," AERO ",\"solver\":{\"modes\":\"4\"}}"));
     static const char *const pointers[] = {"/beam/length_m",
                                            "/beam/elements",
                                            "/beam/color",
-                                           "/beam/section/type",
                                            "/beam/section/chord_m",
                                            "/beam/section/layup/0/material",
                                            "/beam/section/layup/0/thickness_m",

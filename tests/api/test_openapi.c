@@ -161,6 +161,21 @@ static void check_names(const cJSON *schema, const char *const *names, const cha
 static void check_table(const struct fixture *f, const cJSON *schema, const struct field *fields,
                         unsigned kinds);
 
+/* One schema for each table, told apart by the constant "type". */
+static void check_variants(const struct fixture *f, const cJSON *s, const struct field *t,
+                           unsigned kinds)
+{
+    const cJSON *list = get(s, "oneOf");
+    int n = 0;
+    for (; t->names[n] != NULL; n++) {
+        const cJSON *one = schema_resolve(f->doc, cJSON_GetArrayItem(list, n));
+        assert_string_equal(get(get(get(one, "properties"), "type"), "const")->valuestring,
+                            t->names[n]);
+        check_table(f, one, t->variants[n], kinds);
+    }
+    assert_int_equal(cJSON_GetArraySize(list), n);
+}
+
 static void check_field(const struct fixture *f, const cJSON *s, const struct field *t,
                         unsigned kinds)
 {
@@ -172,7 +187,9 @@ static void check_field(const struct fixture *f, const cJSON *s, const struct fi
         check_range(s, t->range, t->key);
         break;
     case FIELD_ENUM:
-        check_names(s, t->names, t->key);
+        if (get(s, "const") == NULL) { /* the type of a variant: see there */
+            check_names(s, t->names, t->key);
+        }
         break;
     case FIELD_TEXT:
         expect_number(s, "maxLength", true, (double)t->size - 1.0, t->key);
@@ -181,6 +198,12 @@ static void check_field(const struct fixture *f, const cJSON *s, const struct fi
     case FIELD_OBJECT:
         assert_int_equal(cJSON_IsArray(get(s, "type")), t->nullable); /* ["object", "null"] */
         check_table(f, s, t->fields, t->kinds != 0 ? t->kinds : kinds);
+        break;
+    case FIELD_PART:
+        check_table(f, s, t->fields, t->kinds != 0 ? t->kinds : kinds);
+        break;
+    case FIELD_VARIANT:
+        check_variants(f, s, t, kinds);
         break;
     case FIELD_LIST:
         expect_number(s, "minItems", true, t->min, t->key);
@@ -201,7 +224,14 @@ static void check_field(const struct fixture *f, const cJSON *s, const struct fi
         assert_string_equal(get(get(s, "items"), "type")->valuestring, "array");
         break;
     case FIELD_CUSTOM:
-        break; /* references and notes: nothing but the key */
+        if (t->fields != NULL && t->max > 0) { /* a list */
+            expect_number(s, "minItems", true, t->min, t->key);
+            expect_number(s, "maxItems", true, t->max, t->key);
+            check_table(f, schema_resolve(f->doc, get(s, "items")), t->fields, kinds);
+        } else if (t->fields != NULL) {
+            check_table(f, s, t->fields, kinds);
+        } /* else a reference or a note: nothing but the key */
+        break;
     }
 }
 
@@ -245,8 +275,7 @@ static void check_table(const struct fixture *f, const cJSON *schema, const stru
 static void test_tables(void **state)
 {
     const struct fixture *f = *state;
-    check_table(f, schema_named(f, "Case"), case_fields,
-                CASE_IN_SIMULATION | CASE_IN_MODES | CASE_IN_SECTION);
+    check_table(f, schema_named(f, "Case"), case_fields, CASE_WITH_BEAM | CASE_IN_SECTION);
     check_table(f, schema_named(f, "Material"), material_fields, 0);
     check_table(f, schema_named(f, "Polar"), polar_fields, 0);
     check_table(f, schema_named(f, "Network"), network_fields, 0);
@@ -254,18 +283,43 @@ static void test_tables(void **state)
 
 /* -- defaults */
 
+static int check_defaults(const struct fixture *f, const cJSON *schema, const cJSON *value);
+
+static int check_list_defaults(const struct fixture *f, const cJSON *schema, const cJSON *list)
+{
+    int n = 0;
+    const cJSON *element = NULL;
+    cJSON_ArrayForEach(element, list)
+    {
+        n += check_defaults(f, schema_resolve(f->doc, get(schema, "items")), element);
+    }
+    return n;
+}
+
 /* Every default of the schema is what the canonical case shows, and what is not required has one.
  */
 static int check_defaults(const struct fixture *f, const cJSON *schema, const cJSON *value)
 {
     int n = 0;
     const cJSON *member = NULL;
+    if (get(schema, "properties") == NULL) { /* a variant: the one of this type */
+        const cJSON *one = get(schema, "oneOf")->child;
+        const char *type = get(value, "type")->valuestring;
+        while (strcmp(get(get(get(schema_resolve(f->doc, one), "properties"), "type"), "const")
+                          ->valuestring,
+                      type) != 0) {
+            one = one->next;
+        }
+        schema = schema_resolve(f->doc, one);
+    }
     cJSON_ArrayForEach(member, value)
     {
         const cJSON *s = schema_resolve(f->doc, get(get(schema, "properties"), member->string));
         const cJSON *fallback = get(s, "default");
         assert_non_null(s);
-        if (fallback != NULL) {
+        if (cJSON_IsArray(member) && cJSON_IsObject(member->child)) {
+            n += check_list_defaults(f, s, member);
+        } else if (fallback != NULL) {
             n++;
             if (!cJSON_Compare(fallback, member, true)) {
                 fail_msg("\"%s\": default differs between document and program", member->string);
@@ -274,33 +328,59 @@ static int check_defaults(const struct fixture *f, const cJSON *schema, const cJ
             n += check_defaults(f, s, member);
         } else if (!lists_required(schema, member->string) &&
                    strcmp(member->string, "length_m") != 0 &&
-                   strcmp(member->string, "duration_s") != 0) { /* required by the kind */
+                   strcmp(member->string, "duration_s") != 0 && /* required by the kind */
+                   strcmp(member->string, "to_m") != 0) {       /* the length */
             fail_msg("\"%s\" has a default the document does not tell", member->string);
         }
     }
     return n;
 }
 
+#define STRIP                                                                                      \
+    "{\"type\":\"strip\",\"chord_m\":0.1,\"layup\":[{\"material\":\"foam\",\"thickness_m\":0.01}]" \
+    "}"
+#define BOX                                                                                        \
+    "{\"type\":\"box\",\"width_m\":0.1,\"height_m\":0.1,\"layup\":[{\"material\":\"foam\","        \
+    "\"thickness_m\":0.01}]}"
+#define CONTOUR                                                                                    \
+    "{\"type\":\"contour\",\"layups\":[{\"name\":\"a\",\"layup\":[{\"material\":\"foam\","         \
+    "\"thickness_m\":0.01}]}],\"points\":[{\"x_m\":0,\"y_m\":0},{\"x_m\":1,\"y_m\":0}],"           \
+    "\"walls\":[{\"from\":0,\"to\":1,\"layup\":\"a\"}]}"
+#define HEAD(kind_, section_)                                                                      \
+    "{\"schema_version\":1,\"kind\":\"" kind_ "\",\"beam\":{\"length_m\":1,\"section\":" section_
+
 static void test_defaults(void **state)
 {
-    static const char minimal[] =
-        "{\"schema_version\":1,\"kind\":\"simulation\",\"beam\":{\"length_m\":1,\"section\":{"
-        "\"type\":\"strip\",\"chord_m\":0.1,\"layup\":[{\"material\":\"foam\",\"thickness_m\":"
-        "0.01}]}},\"flow\":{\"speed_m_s\":1},\"aerodynamics\":{\"polar\":\"plate-4pct-channel\"},"
-        "\"solver\":{\"duration_s\":1}}";
+    static const struct {
+        const char *json;
+        int defaults; /* shown in the canonical case */
+    } minimal[] = {
+        {HEAD("simulation", STRIP) "},\"flow\":{\"speed_m_s\":1},\"aerodynamics\":{\"polar\":"
+                                   "\"plate-4pct-channel\"},\"solver\":{\"duration_s\":1}}",
+         34},
+        {HEAD("modes", BOX) ",\"masses\":[{\"z_m\":1,\"mass_kg\":1}]}}", 14},
+        {HEAD("static", CONTOUR) "},\"loads\":{\"points\":[{\"z_m\":1}],\"lines\":[{}]}}", 27},
+    };
     const struct fixture *f = *state;
-    struct failure_list *problems = calloc(1, sizeof *problems);
-    struct api_case *c = NULL;
-    struct cJSON *tree = NULL;
-    struct failure fail;
-    assert_int_equal(api_case_parse(f->fake->library, minimal, strlen(minimal), "", &c, problems),
-                     ST_OK);
-    const char *text = api_case_canonical(c);
-    assert_int_equal(json_parse(text, strlen(text), &tree, &fail), ST_OK);
-    assert_int_equal(check_defaults(f, schema_named(f, "Case"), tree), 27);
-    json_free(tree);
-    api_case_destroy(c);
-    free(problems);
+    for (size_t i = 0; i < sizeof minimal / sizeof minimal[0]; i++) {
+        struct failure_list *problems = calloc(1, sizeof *problems);
+        struct api_case *c = NULL;
+        struct cJSON *tree = NULL;
+        struct failure fail;
+        if (api_case_parse(f->fake->library, minimal[i].json, strlen(minimal[i].json), "", &c,
+                           problems) != ST_OK) {
+            fail_msg("%s: %s", problems->item[0].pointer, problems->item[0].detail);
+        }
+        const char *text = api_case_canonical(c);
+        assert_int_equal(json_parse(text, strlen(text), &tree, &fail), ST_OK);
+        const int n = check_defaults(f, schema_named(f, "Case"), tree);
+        if (n != minimal[i].defaults) {
+            fail_msg("%d defaults instead of %d in %s", n, minimal[i].defaults, text);
+        }
+        json_free(tree);
+        api_case_destroy(c);
+        free(problems);
+    }
 }
 
 /* -- lists of words */

@@ -29,6 +29,9 @@ static const char *const cases[] = {
         "\"aerodynamics\":{\"polar\":\"plate-4pct-channel\"},\"solver\":{\"duration_s\":0.5}}",
     [CASE_MODES] = "{\"schema_version\":1,\"kind\":\"modes\",\"beam\":{\"length_m\":0.37," SECTION
                    "},\"solver\":{\"modes\":3}}",
+    [CASE_STATIC] =
+        "{\"schema_version\":1,\"kind\":\"static\",\"beam\":{\"length_m\":0.37," SECTION
+        "},\"loads\":{\"tip\":{\"force_y_n\":0.1}},\"output\":{\"stress_at_m\":[0,0.2]}}",
     [CASE_SECTION] = "{\"schema_version\":1,\"kind\":\"section\",\"beam\":{" SECTION "}}",
 };
 
@@ -62,18 +65,22 @@ static int teardown(void **state)
     return 0;
 }
 
-static const struct sim_result *run(struct fixture *f, enum case_kind kind)
+static const struct sim_result *run_case(struct fixture *f, const char *json)
 {
     struct failure_list *problems = calloc(1, sizeof *problems);
     struct failure fail = {.detail = ""};
-    assert_int_equal(api_case_parse(f->lib, cases[kind], strlen(cases[kind]), "", &f->c, problems),
-                     ST_OK);
+    assert_int_equal(api_case_parse(f->lib, json, strlen(json), "", &f->c, problems), ST_OK);
     if (sim_create(api_case_def(f->c), &f->sim, &fail) != ST_OK ||
         sim_run(f->sim, &(const struct sim_control){NULL, NULL}, &fail) != ST_OK) {
         fail_msg("%s", fail.detail);
     }
     free(problems);
     return sim_result(f->sim);
+}
+
+static const struct sim_result *run(struct fixture *f, enum case_kind kind)
+{
+    return run_case(f, cases[kind]);
 }
 
 /* The document, checked against the schema of the answer it is served in. */
@@ -86,6 +93,7 @@ static cJSON *document(struct fixture *f, const char *name, const struct sim_res
         {"damping", "#/components/schemas/Damping"},
         {"modes", "#/components/schemas/Modes"},
         {"section", "#/components/schemas/SectionResult"},
+        {"static", "#/components/schemas/StaticResult"},
     };
     struct cJSON *tree = NULL;
     struct failure fail;
@@ -243,6 +251,56 @@ static void test_section(void **state)
     json_free(s);
 }
 
+/* Of a strip of one isotropic ply: closed forms. */
+static void test_static_closed_form(void **state)
+{
+    static const char strip[] =
+        "{\"schema_version\":1,\"kind\":\"static\",\"materials\":[{\"name\":\"m\",\"e_l_pa\":70e9,"
+        "\"e_t_pa\":70e9,\"g_lt_pa\":26e9,\"g_tt_pa\":26e9,\"nu_lt\":0.3,\"nu_tt\":0.3,"
+        "\"density_kg_m3\":2700,\"x_tension_pa\":4e8,\"x_compression_pa\":4e8,\"y_tension_pa\":4e8,"
+        "\"y_compression_pa\":4e8,\"s_shear_pa\":2e8}],\"beam\":{\"length_m\":2,\"section\":{"
+        "\"type\":"
+        "\"strip\",\"chord_m\":0.1,\"layup\":[{\"material\":\"m\",\"thickness_m\":0.01}]}},"
+        "\"loads\":{\"tip\":{\"force_y_n\":3}},\"output\":{\"stress_at_m\":[0]}}";
+    const double ei = 70e9 * 0.1 * 1e-6 / 12.0, stress = 3.0 * 2.0 * 0.005 / (0.1 * 1e-6 / 12.0);
+    struct fixture *f = *state;
+    const struct sim_result *r = run_case(f, strip);
+    cJSON *s = document(f, "summary", r);
+    assert_near_rel(number(s, "tip/plunge_m"), 3.0 * 8.0 / (3.0 * ei), 1e-6);
+    assert_near_rel(number(s, "tip/slope_flap_deg"), num_deg(3.0 * 4.0 / (2.0 * ei)), 1e-6);
+    assert_near_abs(number(s, "tip/twist_deg"), 0.0, 1e-9);
+    assert_near_abs(number(s, "reactions/force_y_n"), -3.0, 1e-9);
+    assert_near_abs(number(s, "reactions/moment_x_n_m"), 6.0, 1e-9); /* of -z F_y */
+    /* Equal strengths and a uniaxial stress: the reserve is their quotient. */
+    assert_near_rel(number(s, "first_ply_failure/reserve"), 4e8 / stress, 1e-3);
+    assert_near_abs(number(s, "first_ply_failure/z_m"), 0.0, 0.0);
+    json_free(s);
+    s = document(f, "static", r);
+    assert_near_rel(number(s, "span/plunge_m/32"), number(s, "tip/plunge_m"), 0.0);
+    assert_near_rel(number(s, "span/plunge_m/16"), 3.0 * 1.0 * 5.0 / (6.0 * ei), 1e-6);
+    assert_near_rel(fabs(number(s, "stress/0/plies/0/sigma_l_pa")), stress, 1e-3);
+    assert_near_rel(number(s, "stress/0/strains/phi_rate_1_m"), -6.0 / ei, 1e-6);
+    json_free(s);
+}
+
+static void test_static(void **state)
+{
+    struct fixture *f = *state;
+    const struct sim_result *r = run(f, CASE_STATIC);
+    cJSON *s = document(f, "summary", r);
+    assert_near_abs(number(s, "tip/plunge_m"), r->statics.tip.v, 0.0);
+    assert_near_abs(number(s, "tip/twist_deg"), num_deg(r->statics.tip.theta), 1e-15);
+    json_free(s);
+    s = document(f, "static", r);
+    const cJSON *foam = cJSON_GetObjectItemCaseSensitive(s, "stress")->child;
+    foam = cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(foam, "plies"), 1);
+    assert_string_equal(string(foam, "material"), "foam"); /* no strengths: no index */
+    assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(foam, "index")));
+    assert_true(number(s, "stress/0/plies/0/reserve") > 1.0);
+    json_free(s);
+    json_free(document(f, "section", r));
+}
+
 /* A number that is not finite is null, never text that is no JSON. */
 static void test_not_finite(void **state)
 {
@@ -264,10 +322,8 @@ int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
     const struct CMUnitTest tests[] = {
-        TEST(test_simulation),
-        TEST(test_modes),
-        TEST(test_section),
-        TEST(test_not_finite),
+        TEST(test_simulation),         TEST(test_modes),      TEST(test_section), TEST(test_static),
+        TEST(test_static_closed_form), TEST(test_not_finite),
     };
     sim_process_init();
     return cmocka_run_group_tests(tests, NULL, NULL);
