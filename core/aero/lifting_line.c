@@ -178,11 +178,11 @@ static void start_values(const struct polar *p, const double *alpha_g, const dou
     }
 }
 
-struct lifting_line_report lifting_line_solve(const struct lifting_line *ll, const struct polar *p,
-                                              const double *alpha_geometric, const double *plunge,
-                                              struct lifting_line_state *s)
+/* Newton from the values start_values gives. */
+static struct lifting_line_report iterate(const struct lifting_line *ll, const struct polar *p,
+                                          const double *alpha_geometric, const double *plunge,
+                                          struct lifting_line_state *s)
 {
-    assert(s->n == ll->n);
     start_values(p, alpha_geometric, plunge, s);
     struct lifting_line_report r = {.residual = evaluate(ll, p, alpha_geometric, plunge, s)};
     bool fresh = false; /* is the inverse that of this iterate? */
@@ -207,5 +207,22 @@ struct lifting_line_report lifting_line_solve(const struct lifting_line *ll, con
     r.converged = r.residual <= ll->tolerance;
     /* A failed solution is no start for the next. */
     s->known = r.converged ? (s->known < 3 ? s->known + 1 : 3) : 0;
+    return r;
+}
+
+struct lifting_line_report lifting_line_solve(const struct lifting_line *ll, const struct polar *p,
+                                              const double *alpha_geometric, const double *plunge,
+                                              struct lifting_line_state *s)
+{
+    assert(s->n == ll->n);
+    const bool warm = s->known > 0;
+    struct lifting_line_report r = iterate(ll, p, alpha_geometric, plunge, s);
+    if (!r.converged && warm) {
+        /* The earlier solutions may have led astray; known is 0 now, so this one starts cold. */
+        const int spent = r.iterations;
+        s->factored = false;
+        r = iterate(ll, p, alpha_geometric, plunge, s);
+        r.iterations += spent;
+    }
     return r;
 }

@@ -69,6 +69,13 @@ static double to_and_fro(const struct march *march)
     return path / fmax(fabs(y[r->n - 1] - y[from]), 1e-12);
 }
 
+/* Time steps in a period of the first mode. */
+static double steps_per_period(const struct march *march)
+{
+    const struct model *m = march->model;
+    return 2.0 * NUM_PI / (m->modes.omega[0] * m->def.solver.time_step);
+}
+
 static enum verdict of_blow_up(const struct march *march, double stalled, char *reason)
 {
     const double ratio = to_and_fro(march);
@@ -80,6 +87,14 @@ static enum verdict of_blow_up(const struct march *march, double stalled, char *
                    march->stop == STOP_AMPLITUDE ? "the amplitude limit was passed"
                                                  : "the state was no longer finite",
                    time, ratio, 100.0 * stalled);
+    if (steps_per_period(march) < VERDICT_STEPS) {
+        (void)snprintf(
+            reason, VERDICT_REASON,
+            "the run left its bounds at %.4g s, but the fastest mode kept has only %.2g "
+            "time steps a period (%d are wanted): take a shorter time step or fewer modes",
+            time, steps_per_period(march), VERDICT_STEPS);
+        return VERDICT_INDETERMINATE;
+    }
     if (!swings) {
         return VERDICT_DIVERGENCE;
     }

@@ -21,7 +21,8 @@ const char *verdict_name(enum verdict v);
 
 /* Rules, in this order (thirds are of the record; fluctuation is rms about the mean):
  *  - stopped by amplitude or a number that is not finite: the last period of the first mode swings
- *    to and fro -> flutter (stall_flutter if stalled), else divergence;
+ *    to and fro -> flutter (stall_flutter if stalled), else divergence; indeterminate when the
+ *    first mode has fewer than VERDICT_STEPS time steps a period;
  *  - shorter than VERDICT_PERIODS periods of the first mode: indeterminate;
  *  - the fluctuation of twist or plunge grows from the second to the last third -> flutter, or
  *    stall_flutter when stations were stalled;
@@ -29,7 +30,7 @@ const char *verdict_name(enum verdict v);
  *    from the first third, else indeterminate;
  *  - it decays or is below the floor: divergence when the span sits outside the polar, else stable.
  * `reason` receives one sentence with the numbers. */
-enum { VERDICT_PERIODS = 3, VERDICT_REASON = 256 };
+enum { VERDICT_STEPS = 8, VERDICT_PERIODS = 3, VERDICT_REASON = 256 };
 enum verdict verdict_of(const struct march *march, char reason[VERDICT_REASON]);
 
 #endif

@@ -27,7 +27,7 @@ void rk4_step(const struct rk4 *rk, const struct load_polynomial *load, double t
               double *x);
 
 /* Advances (q, q') over dt. Error by step doubling: one step against two halves. ST_NOT_CONVERGED
- * when more than a hundred thousand inner steps would be needed. */
+ * when more than 4096 inner steps would be needed. */
 MUST_CHECK enum status rk4_advance(struct rk4 *rk, const struct load_polynomial *load, double *q,
                                    double *qd);
 
