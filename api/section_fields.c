@@ -18,6 +18,8 @@ const char *const section_type_names[] = {
     [SECTION_STRIP] = "strip", [SECTION_BOX] = "box", [SECTION_CONTOUR] = "contour", NULL};
 static const char *const chordwise_names[] = {
     [CHORDWISE_FREE] = "free", [CHORDWISE_RIGID] = "rigid", NULL};
+static const char *const wall_shear_names[] = {
+    [WALL_SHEAR_RIGID] = "rigid", [WALL_SHEAR_FLEXIBLE] = "flexible", NULL};
 static const char *const shear_names[] = {
     [SHEAR_CONDENSED] = "condensed", [SHEAR_RETAINED] = "retained", NULL};
 
@@ -61,6 +63,7 @@ static const struct field ply_fields[] = {
 #define COMMON                                                                                     \
     CHOICE("chordwise_curvature", shape.chordwise, chordwise_names, .required = false),            \
         CHOICE("shear", shear, shear_names, .required = false),                                    \
+        CHOICE("wall_shear", shape.wall_shear, wall_shear_names, .required = false),               \
         {.key = "contour_elements",                                                                \
          .kind = FIELD_INTEGER,                                                                    \
          .offset = AT(shape.contour_elements),                                                     \
