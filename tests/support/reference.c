@@ -177,8 +177,10 @@ int reference_modes(const struct reference *r, int i, struct reference_mode *out
     cJSON_ArrayForEach(item, need(model_of(r, i), "modes"))
     {
         if (n < REFERENCE_MODES) {
-            out[n++] = (struct reference_mode){.frequency = number(item, "frequency_hz"),
-                                               .label = need(item, "label")->valuestring};
+            out[n++] =
+                (struct reference_mode){.frequency = number(item, "frequency_hz"),
+                                        .label = need(item, "label")->valuestring,
+                                        .torsion = number(need(item, "kinetic_share"), "torsion")};
         }
     }
     return n;

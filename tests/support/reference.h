@@ -11,6 +11,7 @@ enum { REFERENCE_MODES = 8 };
 struct reference_mode {
     double frequency; /* [Hz] */
     const char *label;
+    double torsion; /* share of the kinetic energy */
 };
 
 struct reference;

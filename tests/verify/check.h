@@ -22,7 +22,7 @@ struct check {
     const char *source; /* where the reference comes from */
 };
 
-enum { CHECK_MAX = 128 };
+enum { CHECK_MAX = 320 };
 
 struct check_list {
     int n;
@@ -56,6 +56,7 @@ struct check_group {
     X(shear)                                                                                       \
     X(boxes)                                                                                       \
     X(open_sections)                                                                               \
+    X(reference_3d)                                                                                \
     X(lifting_line)                                                                                \
     X(integrators)                                                                                 \
     X(examples)                                                                                    \
