@@ -358,8 +358,8 @@ static void test_defaults(void **state)
         {HEAD("simulation", STRIP) "},\"flow\":{\"speed_m_s\":1},\"aerodynamics\":{\"polar\":"
                                    "\"plate-4pct-channel\"},\"solver\":{\"duration_s\":1}}",
          35},
-        {HEAD("modes", BOX) ",\"masses\":[{\"z_m\":1,\"mass_kg\":1}]}}", 14},
-        {HEAD("static", CONTOUR) "},\"loads\":{\"points\":[{\"z_m\":1}],\"lines\":[{}]}}", 27},
+        {HEAD("modes", BOX) ",\"masses\":[{\"z_m\":1,\"mass_kg\":1}]}}", 15},
+        {HEAD("static", CONTOUR) "},\"loads\":{\"points\":[{\"z_m\":1}],\"lines\":[{}]}}", 28},
     };
     const struct fixture *f = *state;
     for (size_t i = 0; i < sizeof minimal / sizeof minimal[0]; i++) {
