@@ -89,19 +89,33 @@ static void print_modes(FILE *out, const cJSON *modes)
     }
 }
 
-static void print_means(FILE *out, const cJSON *means)
+/* The numbers of an object, one a line. */
+static void print_numbers(FILE *out, const char *title, const cJSON *object)
 {
     const cJSON *item = NULL;
-    if (means == NULL) {
+    if (object == NULL) {
         return;
     }
-    (void)fputs("means\n", out);
-    cJSON_ArrayForEach(item, means)
+    (void)fprintf(out, "%s\n", title);
+    cJSON_ArrayForEach(item, object)
     {
         if (cJSON_IsNumber(item)) {
-            (void)fprintf(out, "  %-14s %12.5g\n", item->string, item->valuedouble);
+            (void)fprintf(out, "  %-22s %12.5g\n", item->string, item->valuedouble);
         }
     }
+}
+
+static void print_first_failure(FILE *out, const cJSON *failure)
+{
+    if (!cJSON_IsObject(failure)) {
+        return;
+    }
+    const char *layup = text_of(failure, "layup");
+    print_number(out, "first ply fails at %.4g times the load", "first ply",
+                 member(failure, "reserve"));
+    print_number(out, ": at z = %.4g m", "", member(failure, "z_m"));
+    print_number(out, ", ply %.0f", "", member(failure, "ply"));
+    (void)fprintf(out, "%s%s\n", layup[0] != '\0' ? " of " : "", layup);
 }
 
 static void print_damping(FILE *out, const cJSON *damping, const char *signal, const char *unit)
@@ -148,7 +162,13 @@ bool report_summary(FILE *out, const char *json, size_t size)
         (void)fputs("natural modes\n", out);
         print_modes(out, modes);
     }
-    print_means(out, member(summary, "means"));
+    print_numbers(out, "means", member(summary, "means"));
+    print_numbers(out, "tip", member(summary, "tip"));
+    print_numbers(out, "reactions of the clamp", member(summary, "reactions"));
+    print_first_failure(out, member(summary, "first_ply_failure"));
+    if (verdict == NULL) {
+        print_numbers(out, "section", member(summary, "section"));
+    }
     const cJSON *damping = member(summary, "damping");
     print_damping(out, damping, "tip_twist", "deg");
     print_damping(out, damping, "tip_plunge", "m");

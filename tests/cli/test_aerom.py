@@ -6,6 +6,7 @@ Needs AEROM, the program; the class Daemon also AEROMD, the daemon. Python 3 sta
 import csv
 import http.server
 import json
+import math
 import os
 import re
 import socket
@@ -20,6 +21,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 CASES = ROOT / "data" / "cases"
 AEROM = os.environ["AEROM"]
+POUND, INCH = 4.4482216152605, 0.0254
 
 
 def aerom(*arguments, text=None, url=None):
@@ -73,7 +75,9 @@ class Run(unittest.TestCase):
                 wanted = {"simulation": {"verdict", "verdict_reason", "e_star", "reynolds", "modes",
                                          "means", "damping", "modal_contribution", "counters",
                                          "timing", "identity"},
-                          "modes": {"modes", "section"}, "section": {"section"}}[kind]
+                          "modes": {"modes", "section"},
+                          "section": {"section", "stiffness", "stiffness_condensed", "mass"},
+                          "static": {"tip", "reactions", "first_ply_failure", "section"}}[kind]
                 self.assertEqual(wanted - set(summary), set())
 
     def test_standard_input_gives_the_same_answer(self):
@@ -88,6 +92,41 @@ class Run(unittest.TestCase):
         self.assertEqual([len(row) for row in json.loads(result.stdout)["stiffness"]], [7] * 7)
         result = aerom("run", CASES / "aluminium-modes.json", "--document", "damping")
         self.assertEqual((result.returncode, result.stdout), (1, ""))
+
+    def test_composite_box_against_nabsa(self):
+        """Box [15]6 CAS: NABSA's stiffness (0.537 in deep), in pounds and inches, within 5 %."""
+        case = json.loads((CASES / "box-cas15-modes.json").read_text(encoding="utf-8"))
+        section = {**case["beam"]["section"], "height_m": 0.537 * INCH}
+        result = aerom("run", "-", text=json.dumps({"schema_version": 1, "kind": "section",
+                                                    "beam": {"section": section}}))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        summary = json.loads(result.stdout)
+        order = summary["order"]
+        for row, column, inches, expected in (("w'", "w'", 0, 1.37e6), ("theta'", "theta'", 2, 1.73e4),
+                                              ("phi'", "phi'", 2, 6.08e4), ("psi'", "psi'", 2, 1.43e5),
+                                              ("phi'", "theta'", 2, 1.80e4),
+                                              ("gamma_yz", "gamma_yz", 0, 3.95e4)):
+            with self.subTest(entry=row + column):
+                value = summary["stiffness"][order.index(row)][order.index(column)]
+                self.assertLess(abs(abs(value) / (POUND * INCH ** inches) / expected - 1), 0.05)
+
+    def test_static_box_is_reciprocal(self):
+        """Twist of a tip force over half the length is the slope of a tip torque, L = 30 in."""
+        case = json.loads((CASES / "box-cas15-static.json").read_text(encoding="utf-8"))
+        tip = {}
+        for key in ("force_y_n", "moment_z_n_m"):
+            result = aerom("run", "-", text=json.dumps({**case, "loads": {"tip": {key: 1}}}))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            tip[key] = json.loads(result.stdout)["tip"]
+        twist = math.radians(tip["force_y_n"]["twist_deg"])
+        self.assertGreater(abs(twist), 1e-4)
+        self.assertAlmostEqual(tip["moment_z_n_m"]["plunge_m"] / twist, 1, places=6)
+
+    def test_static_text(self):
+        result = aerom("run", "--text", CASES / "box-cas15-static.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for word in ("plunge_m", "reactions of the clamp", "first ply fails at", "at z = 0 m"):
+            self.assertIn(word, result.stdout)
 
     def test_text(self):
         result = aerom("run", "--text", "-", text=json.dumps(short_case()))

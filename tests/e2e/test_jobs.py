@@ -82,6 +82,33 @@ class Jobs(DaemonTest):
             self.assertEqual(d.request("GET", f"/v1/jobs/{job}/section")[0], 200)
             self.assertEqual(d.request("GET", f"/v1/jobs/{job}/series")[0], 404)
 
+    def test_static(self):
+        """Tip deflection of an isotropic strip against P L^3 / (3 E I)."""
+        d = self.start().wait_ready()
+        ply = {"material": "aluminium", "thickness_m": 0.004}
+        case = {"schema_version": 1, "kind": "static",
+                "beam": {"length_m": 0.8, "section": {"type": "strip", "chord_m": 0.05, "layup": [ply]}},
+                "loads": {"tip": {"force_y_n": 2}}, "output": {"stress_at_m": [0]}}
+        job = d.submit(case)
+        self.assertEqual(d.wait(job)["state"], "done")
+        status, _, static = d.request("GET", f"/v1/jobs/{job}/static")
+        self.assertEqual(status, 200)
+        expected = 2 * 0.8 ** 3 / (3 * 70e9 * 0.05 * 0.004 ** 3 / 12)
+        self.assertAlmostEqual(static["tip"]["plunge_m"] / expected, 1, places=5)
+        self.assertEqual(static["span"]["plunge_m"][-1], static["tip"]["plunge_m"])
+        self.assertEqual(len(static["stress"][0]["plies"]), 1)
+        self.assertIsNone(static["first_ply_failure"])  # no strengths
+        self.assertEqual(d.request("GET", f"/v1/jobs/{job}/summary")[2]["tip"], static["tip"])
+        self.assertEqual(d.request("GET", f"/v1/jobs/{job}/modes")[0], 404)
+        listed = d.request("GET", "/v1/jobs?kind=static")[2]["jobs"]
+        self.assertEqual([j["id"] for j in listed], [job])
+        section = {"type": "box", "width_m": 0.1, "height_m": 0.1, "layup": [ply], "walls": {}}
+        status, _, problem = d.request("POST", "/v1/jobs", {**case, "beam": {
+            "length_m": 1, "section": section}})
+        self.assertEqual(status, 422)
+        self.assertIn(("/beam/section/layup", "layup_twice"),
+                      [(e["pointer"], e["code"]) for e in problem["errors"]])
+
     def test_batch_is_all_or_nothing(self):
         d = self.start("--workers", "0").wait_ready()
         bad = simulation(speed=3)
