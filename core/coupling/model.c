@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { ROOT_NODES = 4 }; /* extra ones at most next to the clamp */
+
 /* Stations around z: *t is the place between number i (returned) and i + 1. */
 static int stations_around(const struct beam_def *b, double z, double *t)
 {
@@ -121,11 +123,28 @@ enum status model_try_sections(const struct beam_def *b, struct failure_list *ou
     return st;
 }
 
-/* Nodes where stations and lumped masses are. */
-static enum status build_mesh(const struct beam_def *b, struct beam_mesh *out)
+/* A clamp that holds the warping also holds theta', which a coupled beam needs for its bending;
+ * both come free again over sqrt(EI_w/GJ), a few millimetres in a closed section. An element that
+ * is longer than that layer spreads the clamp over its length: nodes in thirds towards the root. */
+static int root_layer(const struct model *m, double *z)
 {
-    double extra[LIMIT_STATIONS + LIMIT_MASSES];
+    const struct beam_def *b = &m->def.beam;
+    const double reach = sqrt(fmax(m->centres.ei_warping, 0.0) / m->centres.gj);
+    double at = b->length / b->elements / 3.0;
     int n = 0;
+    while (b->root_warping == ROOT_WARPING_RESTRAINED && n < ROOT_NODES && at > reach) {
+        z[n++] = at;
+        at /= 3.0;
+    }
+    return n;
+}
+
+/* Nodes where stations and lumped masses are, and in the layer at the root. */
+static enum status build_mesh(const struct model *m, struct beam_mesh *out)
+{
+    const struct beam_def *b = &m->def.beam;
+    double extra[LIMIT_STATIONS + LIMIT_MASSES + ROOT_NODES];
+    int n = root_layer(m, extra);
     for (int i = 0; i < b->n_station; i++) {
         extra[n++] = b->station[i].z;
     }
@@ -141,7 +160,7 @@ static enum status build_beam(struct model *m)
     struct beam_mesh mesh = {0};
     struct section *varying = NULL;
     struct shape *shape = NULL;
-    enum status st = build_mesh(b, &mesh);
+    enum status st = build_mesh(m, &mesh);
     if (st == ST_OK && b->n_station > 0) {
         varying = malloc((size_t)(BEAM_GAUSS * mesh.n_element) * sizeof *varying);
         shape = malloc(sizeof *shape);

@@ -38,7 +38,7 @@ static void indices_are_a_permutation(void **state)
         struct model m;
         build((enum root_warping)root, 5, &m);
         int *seen = calloc((size_t)m.beam.n_dof, sizeof *seen);
-        for (int node = 0; node <= 5; node++) {
+        for (int node = 0; node <= m.beam.mesh.n_element; node++) {
             for (int f = 0; f < BEAM_NODE_FREEDOMS; f++) {
                 const int i = beam_index(&m.beam, node, (enum beam_freedom)f);
                 if (i >= 0) {
