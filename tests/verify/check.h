@@ -56,6 +56,8 @@ struct check_group {
     X(shear)                                                                                       \
     X(boxes)                                                                                       \
     X(open_sections)                                                                               \
+    X(convergence)                                                                                 \
+    X(properties)                                                                                  \
     X(reference_3d)                                                                                \
     X(lifting_line)                                                                                \
     X(integrators)                                                                                 \
