@@ -250,6 +250,13 @@ const char *api_case_canonical(const struct api_case *c)
     return c->canonical;
 }
 
+char *api_case_take_canonical(struct api_case *c)
+{
+    char *text = c->canonical;
+    c->canonical = NULL;
+    return text;
+}
+
 const char *api_case_hash(const struct api_case *c)
 {
     return c->hash;

@@ -32,6 +32,8 @@ const struct case_def *api_case_def(const struct api_case *c);
 /* Canonical JSON: every default filled in, fixed key order, no white space, local materials, polars
  * and networks that are used included. Parsing it again gives the same case and the same hash. */
 const char *api_case_canonical(const struct api_case *c);
+/* The same text handed over to the caller, who frees it; the case has none from then on. */
+char *api_case_take_canonical(struct api_case *c);
 /* BLAKE2b-256, hexadecimal, over the canonical case without its name, the core version and the
  * content hashes of polar and network: equal hash = equal result. */
 const char *api_case_hash(const struct api_case *c);

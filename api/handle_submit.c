@@ -13,21 +13,28 @@
 
 enum { BATCH_MAX = 1000, CASE_BODY_MAX = 1 << 20 };
 
+/* What of a case goes to storage. A whole one takes 100 kB and more, and a batch has a thousand. */
+struct kept {
+    char *canonical;
+    char name[sizeof((struct case_def *)0)->name];
+    char hash[LIMIT_HASH];
+};
+
 /* Cases on their way to storage: lives from the request to the service's answer. */
 struct submission {
     struct api_reply *reply;
     bool batch;
     int n; /* cases parsed */
-    struct api_case **cases;
+    struct kept *kept;
     struct service_submit *item;
 };
 
 static void submission_destroy(struct submission *s)
 {
     for (int i = 0; i < s->n; i++) {
-        api_case_destroy(s->cases[i]);
+        free(s->kept[i].canonical);
     }
-    free(s->cases);
+    free(s->kept);
     free(s->item);
     free(s);
 }
@@ -39,9 +46,9 @@ static struct submission *submission_create(struct api_reply *reply, int n, bool
         return NULL;
     }
     *s = (struct submission){.reply = reply, .batch = batch};
-    s->cases = calloc((size_t)n, sizeof(struct api_case *));
+    s->kept = calloc((size_t)n, sizeof *s->kept);
     s->item = calloc((size_t)n, sizeof *s->item);
-    if (s->cases == NULL || s->item == NULL) {
+    if (s->kept == NULL || s->item == NULL) {
         submission_destroy(s);
         return NULL;
     }
@@ -109,12 +116,14 @@ static void submit_done(void *arg, enum service_status status, int n,
 static void add_case(struct submission *s, struct api_case *c)
 {
     const struct case_def *def = api_case_def(c);
-    s->cases[s->n] = c;
-    s->item[s->n] = (struct service_submit){.kind = def->kind,
-                                            .name = def->name,
-                                            .case_json = api_case_canonical(c),
-                                            .content_hash = api_case_hash(c)};
+    struct kept *k = &s->kept[s->n];
+    (void)snprintf(k->name, sizeof k->name, "%s", def->name);
+    (void)snprintf(k->hash, sizeof k->hash, "%s", api_case_hash(c));
+    k->canonical = api_case_take_canonical(c);
+    s->item[s->n] = (struct service_submit){
+        .kind = def->kind, .name = k->name, .case_json = k->canonical, .content_hash = k->hash};
     s->n++;
+    api_case_destroy(c);
 }
 
 /* The "jobs" of a batch, checked; NULL when it is none that can be read (reported). */
