@@ -1,10 +1,9 @@
-/* Reading side of api/field.h. */
+/* Reading side of api/field.h: lists and objects. */
 #include "api/field.h"
+#include "api/field_scalar.h"
 
 #include <assert.h>
 #include <cjson/cJSON.h>
-#include <limits.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,121 +13,11 @@ static void *member(void *base, size_t offset)
     return (char *)base + offset;
 }
 
-static bool expect(struct reader *r, bool fits, const char *what, const cJSON *got)
-{
-    if (!fits) {
-        reader_problem(r, "wrong_type", what, got, "the value must be %s", what);
-    }
-    return fits;
-}
-
-int field_name_index(const char *const *names, const char *text)
-{
-    for (int i = 0; names[i] != NULL; i++) {
-        if (strcmp(names[i], text) == 0) {
-            return i;
-        }
-    }
-    return -1;
-}
-
-void field_range_text(const struct field_range *range, size_t size, char *out)
-{
-    if (range->min == range->max) {
-        (void)json_number_text(range->min, out);
-        return;
-    }
-    char min[JSON_NUMBER_SIZE + 8] = "", max[JSON_NUMBER_SIZE + 8] = "", number[JSON_NUMBER_SIZE];
-    if (isfinite(range->min)) {
-        (void)json_number_text(range->min, number);
-        (void)snprintf(min, sizeof min, "%s %s ", number, range->above_min ? "<" : "<=");
-    }
-    if (isfinite(range->max)) {
-        (void)json_number_text(range->max, number);
-        (void)snprintf(max, sizeof max, " %s %s", range->below_max ? "<" : "<=", number);
-    }
-    (void)snprintf(out, size, "%sx%s", min, max);
-}
-
-static bool in_range(const struct field_range *range, double x)
-{
-    const bool low = range->above_min ? x > range->min : x >= range->min;
-    const bool high = range->below_max ? x < range->max : x <= range->max;
-    return low && high;
-}
-
-static bool check_range(struct reader *r, const struct field *f, const cJSON *json)
-{
-    char text[96];
-    if (f->range == NULL || in_range(f->range, json->valuedouble)) {
-        return true;
-    }
-    field_range_text(f->range, sizeof text, text);
-    reader_problem(r, "out_of_range", text, json, "the value is outside its range %s", text);
-    return false;
-}
-
-/* One number in SI. False when refused. */
-static bool read_number(struct reader *r, const struct field *f, const cJSON *json, double *out)
-{
-    /* A number that is not finite has been reported by json_check. */
-    if (!expect(r, cJSON_IsNumber(json), "a number", json) || !isfinite(json->valuedouble) ||
-        !check_range(r, f, json)) {
-        return false;
-    }
-    *out = f->unit > 0.0 ? json->valuedouble * f->unit : json->valuedouble;
-    return true;
-}
-
-static void read_integer(struct reader *r, const struct field *f, const cJSON *json, int *out)
-{
-    const double x = cJSON_IsNumber(json) ? json->valuedouble : (double)NAN;
-    if (isinf(x)) {
-        return;
-    }
-    if (expect(r, x == floor(x) && fabs(x) <= INT_MAX, "an integer", json) &&
-        check_range(r, f, json)) {
-        *out = (int)x;
-    }
-}
-
-/* Value of an enum by its name, -1 when refused. */
-static int read_name(struct reader *r, const char *const *names, const cJSON *json)
-{
-    char expected[128];
-    if (!expect(r, cJSON_IsString(json), "a string", json)) {
-        return -1;
-    }
-    const int index = field_name_index(names, json->valuestring);
-    if (index < 0) {
-        reader_join(names, sizeof expected, expected);
-        reader_problem(r, "unknown_value", expected, json, "the value is not one of those known");
-    }
-    return index;
-}
-
-static void read_text(struct reader *r, const struct field *f, const cJSON *json, char *out)
-{
-    if (!expect(r, cJSON_IsString(json), "a string", json)) {
-        return;
-    }
-    const size_t length = strlen(json->valuestring);
-    if (length >= f->size) {
-        char expected[48];
-        (void)snprintf(expected, sizeof expected, "at most %zu bytes", f->size - 1);
-        reader_problem(r, "too_long", expected, json, "the text has %zu bytes", length);
-    } else if (length == 0 && f->required) {
-        reader_problem(r, "empty_text", "at least one character", json, "the text is empty");
-    } else {
-        memcpy(out, json->valuestring, length + 1);
-    }
-}
-
 /* Checks an array and its length; -1 when refused. */
 static int array_length(struct reader *r, const struct field *f, const cJSON *json, int wanted)
 {
     char expected[64];
-    if (!expect(r, cJSON_IsArray(json), "an array", json)) {
+    if (!field_expect(r, cJSON_IsArray(json), "an array", json)) {
         return -1;
     }
     const int n = cJSON_GetArraySize(json);
@@ -152,7 +41,7 @@ static bool read_numbers(struct reader *r, const struct field *f, const cJSON *j
     int i = 0;
     for (const cJSON *c = json->child; c != NULL; c = c->next, i++) {
         const size_t mark = reader_enter_index(r, i);
-        ok = read_number(r, f, c, &out[i]) && ok;
+        ok = field_read_number(r, f, c, &out[i]) && ok;
         reader_leave(r, mark);
     }
     return ok;
@@ -268,7 +157,7 @@ static void read_names(struct reader *r, const struct field *f, const cJSON *jso
     const cJSON *c = n > 0 ? json->child : NULL;
     for (int i = 0; c != NULL; c = c->next, i++) {
         const size_t mark = reader_enter_index(r, i);
-        const int name = read_name(r, f->names, c);
+        const int name = field_read_name(r, f->names, c);
         bool twin = false;
         for (int j = 0; j < used; j++) {
             twin = twin || value[j] == name;
@@ -314,7 +203,7 @@ static void read_object(struct reader *r, const struct field *f, const cJSON *js
 
 static void read_variant(struct reader *r, const struct field *f, const cJSON *json, void *part)
 {
-    if (!expect(r, cJSON_IsObject(json), "an object", json)) {
+    if (!field_expect(r, cJSON_IsObject(json), "an object", json)) {
         return;
     }
     const cJSON *type = cJSON_GetObjectItemCaseSensitive(json, "type");
@@ -323,7 +212,7 @@ static void read_variant(struct reader *r, const struct field *f, const cJSON *j
     if (type == NULL) {
         reader_problem(r, "required", "a value", NULL, "\"type\" is missing");
     } else {
-        variant = read_name(r, f->names, type);
+        variant = field_read_name(r, f->names, type);
     }
     reader_leave(r, mark);
     /* Without its type nothing can be said about the rest. */
@@ -338,19 +227,19 @@ void field_read_value(struct reader *r, const struct field *f, const struct cJSO
     int name = -1;
     switch (f->kind) {
     case FIELD_NUMBER:
-        (void)read_number(r, f, json, member(base, f->offset));
+        (void)field_read_number(r, f, json, member(base, f->offset));
         break;
     case FIELD_INTEGER:
-        read_integer(r, f, json, member(base, f->offset));
+        field_read_integer(r, f, json, member(base, f->offset));
         break;
     case FIELD_ENUM:
-        name = read_name(r, f->names, json);
+        name = field_read_name(r, f->names, json);
         if (name >= 0) {
             memcpy(member(base, f->offset), &name, sizeof name);
         }
         break;
     case FIELD_TEXT:
-        read_text(r, f, json, member(base, f->offset));
+        field_read_text(r, f, json, member(base, f->offset));
         break;
     case FIELD_OBJECT:
         read_object(r, f, json, base);
@@ -416,7 +305,7 @@ static void report_unknown(struct reader *r, const struct field *fields, const c
 void field_read(struct reader *r, const struct field *fields, const struct cJSON *json, void *base)
 {
     if (json != NULL) {
-        if (!expect(r, cJSON_IsObject(json), "an object", json)) {
+        if (!field_expect(r, cJSON_IsObject(json), "an object", json)) {
             return;
         }
         report_unknown(r, fields, json);
