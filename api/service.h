@@ -111,7 +111,7 @@ struct service {
                                 struct job_record **out, int *n, bool *more);
     /* Canonical case as text, freed with free(). */
     enum service_status (*get_case)(void *ctx, const char *id, char **json);
-    /* A stored result document ("summary" "damping" "modes" "section"), freed with free(). */
+    /* A stored result document (result.h names them), freed with free(). */
     enum service_status (*get_document)(void *ctx, const char *id, const char *document,
                                         char **json);
     /* Columns whose name, or name before '[', is in `channel` (n_channel = 0: all), samples with
