@@ -66,12 +66,22 @@ static const char own_definitions[] =
     "\"chord_m\":0.1,\"layup\":[{\"material\":\"m\",\"thickness_m\":0.01}]}},"
     "\"flow\":{\"speed_m_s\":1},\"aerodynamics\":{\"polar\":\"p\"},\"solver\":{\"duration_s\":1}}";
 
+#define STATION(z_)                                                                                \
+    "{\"z_m\":" #z_ ",\"section\":{\"type\":\"contour\",\"layups\":[{\"name\":\"a\",\"layup\":["   \
+    "{\"material\":\"foam\",\"thickness_m\":0.01}]}],\"points\":[{\"x_m\":0,\"y_m\":0},{\"x_m\":"  \
+    "1,"                                                                                           \
+    "\"y_m\":0}],\"walls\":[{\"from\":0,\"to\":1,\"layup\":\"a\"}]}}"
+static const char with_stations[] =
+    "{\"schema_version\":1,\"kind\":\"static\",\"beam\":{\"length_m\":1,\"stations\":[" STATION(
+        0) "," STATION(1) "]},\"loads\":{\"tip\":{\"force_y_n\":1}}}";
+
 #define ID "00000000-0000-7000-8000-000000000000"
 static const struct {
     const char *method, *target, *body;
     int status;
 } requests[] = {
     {"POST", "/v1/jobs", own_definitions, 202},
+    {"POST", "/v1/jobs", with_stations, 202},
     {"POST", "/v1/jobs", "{\"jobs\":[{},{}]}", 422},
     {"POST", "/v1/jobs", "{", 400},
     {"GET", "/v1/jobs?limit=1&name=a", NULL, 200},
