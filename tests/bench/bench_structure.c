@@ -2,7 +2,8 @@
  * Cost of a section solve (100 elements along the wall) and of the modes of the paper's beam, on
  * one thread. bench_structure.py runs it beside the same computations in NumPy and SciPy.
  *
- * Usage: bench_structure [rounds]; prints `name seconds` lines, medians. */
+ * Usage: bench_structure [rounds]; prints `name seconds` lines, medians, and the numbers that the
+ * other side must find as well, as `value name number` lines. */
 #include "core/coupling/model.h"
 #include "core/num.h"
 #include "core/sim.h"
@@ -53,23 +54,44 @@ static void paper_beam(struct case_def *def)
     def->beam.section.shape.layup[0].ply[1] = (struct ply){.material = foam, .thickness = 0.00387};
 }
 
+static void build(const struct case_def *def, struct model *out)
+{
+    struct failure fail;
+    if (model_build(def, out, &fail) != ST_OK) {
+        (void)fprintf(stderr, "%s\n", fail.detail);
+        exit(1);
+    }
+}
+
 /* Median time of building the model of a case. */
 static double time_model(const struct case_def *def, int rounds)
 {
     static double seconds[ROUNDS_MAX];
     for (int i = 0; i < rounds; i++) {
         struct model m;
-        struct failure fail;
         const double start = cpu_now();
-        if (model_build(def, &m, &fail) != ST_OK) {
-            (void)fprintf(stderr, "%s\n", fail.detail);
-            exit(1);
-        }
+        build(def, &m);
         seconds[i] = cpu_now() - start;
         model_done(&m);
     }
     qsort(seconds, (size_t)rounds, sizeof *seconds, ascending);
     return seconds[rounds / 2];
+}
+
+static void print_values(const struct case_def *def)
+{
+    struct model m;
+    build(def, &m);
+    if (def->kind == CASE_SECTION) {
+        for (int i = 0; i < SECTION_CLASSIC; i++) {
+            (void)printf("value stiffness_%d%d %.17g\n", i, i,
+                         m.section.classic[num_at(i, i, SECTION_CLASSIC)]);
+        }
+    }
+    for (int j = 0; j < m.modes.n_mode; j++) {
+        (void)printf("value frequency_%d %.17g\n", j + 1, m.modes.omega[j] / (2.0 * NUM_PI));
+    }
+    model_done(&m);
 }
 
 int main(int argc, char **argv)
@@ -82,9 +104,11 @@ int main(int argc, char **argv)
     def.kind = CASE_SECTION;
     def.beam.section.shape.contour_elements = 100;
     (void)printf("section_100 %.3e\n", time_model(&def, rounds));
+    print_values(&def);
     def.beam.section.shape.contour_elements = 16;
     (void)printf("section_16 %.3e\n", time_model(&def, rounds));
     def.kind = CASE_MODES;
     (void)printf("modes %.3e\n", time_model(&def, rounds));
+    print_values(&def);
     return 0;
 }
