@@ -351,7 +351,7 @@ static enum status system_init(const struct contour *c, struct system *out)
     const bool turns = c->shear == WALL_SHEAR_FLEXIBLE;
     const size_t values = (size_t)c->n_node * (turns ? 2 : 1), n = values - 1;
     struct system s = {.n = (int)n, .n_node = c->n_node, .turns = turns};
-    s.factor = calloc(n * n + values * (2 * CONSTRAINTS), sizeof *s.factor);
+    s.factor = calloc(n * n + values * (size_t)(2 * CONSTRAINTS), sizeof *s.factor);
     if (s.factor == NULL) {
         return ST_NO_MEMORY;
     }
