@@ -14,7 +14,9 @@ static const char *const introduction =
     "cent, else absolute. Marks of sources: [3D] finite shell elements (CalculiX S8R, composite),\n"
     "[C] an independent calculation made for the validation data of this project, closed form: "
     "the\n"
-    "formula of the text book, property: follows from the mathematics.\n";
+    "formula of the text book, property: follows from the mathematics. The model page and the\n"
+    "validation data are the design note and the collection of reference numbers that were made\n"
+    "for this project before its code; what is quoted of them stands in the tests.\n";
 
 int main(void)
 {
