@@ -42,6 +42,13 @@ static struct thirds thirds_of(const struct record *r, int column, double floor)
     return t;
 }
 
+/* Has the fluctuation grown from each third to the next? */
+static bool grows_throughout(const struct thirds *t)
+{
+    const double factor = exp(growth_tolerance);
+    return t->rms[0] > 0.0 && t->rms[1] > factor * t->rms[0] && t->rms[2] > factor * t->rms[1];
+}
+
 static double stalled_in_last_third(const struct record *r)
 {
     const int from = r->n * 2 / 3;
@@ -129,6 +136,16 @@ enum verdict verdict_of(const struct march *march, char reason[VERDICT_REASON])
                    twist_leads ? "twist" : "plunge", unit * lead->rms[0], unit * lead->rms[1],
                    unit * lead->rms[2], twist_leads ? "deg" : "mm", lead->growth, growth_tolerance,
                    100.0 * stalled);
+    if (twist.at_rest && plunge.at_rest &&
+        (grows_throughout(&twist) || grows_throughout(&plunge))) {
+        (void)snprintf(
+            reason, VERDICT_REASON,
+            "the motion never left the noise (rms twist %.2g deg in the last third) but "
+            "has grown all along: an equilibrium that was not disturbed does not show its "
+            "stability; start from rest or give it amplitudes",
+            num_deg(twist.rms[2]));
+        return VERDICT_INDETERMINATE;
+    }
     const bool outside =
         march->stop == STOP_OUTSIDE_POLAR || (double)march->outside_steps > 0.5 * march->steps;
     if (lead->at_rest || lead->growth < -growth_tolerance) {

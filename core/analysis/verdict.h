@@ -24,6 +24,7 @@ const char *verdict_name(enum verdict v);
  *    to and fro -> flutter (stall_flutter if stalled), else divergence; indeterminate when the
  *    first mode has fewer than VERDICT_STEPS time steps a period;
  *  - shorter than VERDICT_PERIODS periods of the first mode: indeterminate;
+ *  - twist and plunge stay below the floor, yet one has grown from third to third: indeterminate;
  *  - the fluctuation of twist or plunge grows from the second to the last third -> flutter, or
  *    stall_flutter when stations were stalled;
  *  - it stays and is above the floor -> stall_flutter when stalled, limit_cycle when it differs

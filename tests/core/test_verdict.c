@@ -71,7 +71,10 @@ static void table(void **state)
         enum verdict verdict;
     } row[] = {
         {"decays", {0.1, -1.0, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0}, VERDICT_STABLE},
-        {"rests", {1e-6, 0.5, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0}, VERDICT_STABLE},
+        {"rests", {1e-6, 0.0, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0}, VERDICT_STABLE},
+        {"never disturbed, but its noise grows",
+         {1e-13, 0.5, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0},
+         VERDICT_INDETERMINATE},
         {"decays while stalled", {0.1, -1.0, 4.0, 0, 0, 0, STOP_DURATION, 0, 3.0}, VERDICT_STABLE},
         {"grows", {0.01, 1.0, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0}, VERDICT_FLUTTER},
         {"grows, stalled",
