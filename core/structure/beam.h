@@ -54,7 +54,7 @@ struct beam_spec {
     const struct beam_mass *mass; /* each at a node of the mesh */
 };
 
-enum { BEAM_OUTER = 2 * BEAM_NODE_FREEDOMS, BEAM_INNER = 6 };
+enum { BEAM_OUTER = 2 * BEAM_NODE_FREEDOMS, BEAM_INNER = 8 };
 
 struct beam {
     double length; /* [m] */

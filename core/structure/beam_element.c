@@ -74,19 +74,37 @@ static void put_direction(const struct direction *d, const struct hermite *f, do
     }
 }
 
+/* Twist: theta' = chi + eta, where the node's freedom chi is the amplitude of the warping. Without
+ * eta chi is theta'. */
+static void put_twist(const struct hermite *f, double t, double h, struct element_rows *out)
+{
+    for (int j = 0; j < 4; j++) {
+        const int column = NODE * (j / 2) + D_THETA + j % 2;
+        out->motion[M_THETA + MOTION * column] = f->value[j];
+        out->motion[M_DTHETA + MOTION * column] = f->first[j];
+        out->strain[S_THETA + STRAIN * column] = f->first[j];
+        out->strain[S_THETA2 + STRAIN * column] = f->second[j];
+    }
+    for (int part = 0; part < 2; part++) { /* eta = mean + slope (2t - 1) */
+        const int column = OUTER + IN_ETA_MEAN + part;
+        const double at_start = part == 0 ? 1.0 : -1.0;
+        const double eta = part == 0 ? 1.0 : 2.0 * t - 1.0, rate = part == 0 ? 0.0 : 2.0 / h;
+        const double chi = at_start * f->first[1] + f->first[3] - eta;
+        out->motion[M_THETA + MOTION * column] = at_start * f->value[1] + f->value[3];
+        out->motion[M_DTHETA + MOTION * column] = chi;
+        out->strain[S_THETA + STRAIN * column] = chi;
+        out->strain[S_THETA2 + STRAIN * column] = at_start * f->second[1] + f->second[3] - rate;
+        out->eta[column] = eta;
+    }
+}
+
 void element_rows(double t, double h, struct element_rows *out)
 {
     const struct hermite f = hermite_at(t, h);
     memset(out, 0, sizeof *out);
     put_direction(&directions[0], &f, t, h, out);
     put_direction(&directions[1], &f, t, h, out);
-    for (int j = 0; j < 4; j++) {
-        const int column = NODE * (j / 2) + D_THETA + j % 2;
-        out->motion[M_THETA + MOTION * column] = f.value[j];
-        out->motion[M_DTHETA + MOTION * column] = f.first[j];
-        out->strain[S_THETA + STRAIN * column] = f.first[j];
-        out->strain[S_THETA2 + STRAIN * column] = f.second[j];
-    }
+    put_twist(&f, t, h, out);
     out->strain[S_W + STRAIN * D_W] = -1.0 / h;
     out->strain[S_W + STRAIN * (NODE + D_W)] = 1.0 / h;
     out->motion[M_W + MOTION * D_W] = 1.0 - t;
@@ -118,6 +136,23 @@ static void add_product(int n, int stride, const double *rows, const double *mid
                 sum += rows[r + stride * a] * product[r];
             }
             out[a + ALL * b] += sum;
+        }
+    }
+}
+
+/* Adds the energy of eta: twice with each strain and once with itself. */
+static void add_eta(const struct element_rows *rows, const double *stiffness, double weight,
+                    double *out)
+{
+    for (int b = 0; b < ALL; b++) {
+        double with_b = 0.0; /* force on eta from freedom b's strains */
+        for (int r = 0; r < STRAIN; r++) {
+            with_b += stiffness[r] * rows->strain[r + STRAIN * b];
+        }
+        for (int a = 0; a < ALL; a++) {
+            const double both = rows->eta[a] * with_b;
+            out[a + ALL * b] += weight * (both + stiffness[STRAIN] * rows->eta[a] * rows->eta[b]);
+            out[b + ALL * a] += weight * both;
         }
     }
 }
@@ -178,7 +213,8 @@ enum status element_build(const struct section *const section[BEAM_GAUSS], doubl
     _Static_assert((int)STRAIN >= (int)MOTION, "the scratch of add_product holds either");
     const bool retained = shear == SHEAR_RETAINED;
     const int n_strain = retained ? STRAIN : SECTION_CLASSIC;
-    const int n_inner = retained ? BEAM_INNER : IN_GX_MEAN;
+    const bool eta = retained && section[0]->has_warping_shear;
+    const int n_inner = eta ? BEAM_INNER : (retained ? IN_ETA_MEAN : IN_GX_MEAN);
     double k[ALL * ALL] = {0}, m[ALL * ALL] = {0};
     for (int q = 0; q < BEAM_GAUSS; q++) {
         struct element_rows rows;
@@ -186,6 +222,9 @@ enum status element_build(const struct section *const section[BEAM_GAUSS], doubl
         const double weight = 0.5 * h * gauss_weight[q];
         const struct section *s = section[q];
         add_product(n_strain, STRAIN, rows.strain, retained ? s->stiffness : s->classic, weight, k);
+        if (eta) {
+            add_eta(&rows, s->warping_shear, weight, k);
+        }
         add_product(MOTION, MOTION, rows.motion, retained ? s->mass_retained : s->mass, weight, m);
     }
     const enum status st = solve_inner(k, n_inner, out->inner);

@@ -8,12 +8,23 @@
 
 enum { ELEMENT_ALL = BEAM_OUTER + BEAM_INNER };
 
-/* Internal freedoms: two modes of w, then constant and linear part of gamma_xz and gamma_yz. */
-enum beam_inner { IN_W_EVEN, IN_W_ODD, IN_GX_MEAN, IN_GX_SLOPE, IN_GY_MEAN, IN_GY_SLOPE };
+/* Internal freedoms: two modes of w, then constant and linear part of gamma_xz, gamma_yz
+ * and of eta, the twist without warping (section.h). */
+enum beam_inner {
+    IN_W_EVEN,
+    IN_W_ODD,
+    IN_GX_MEAN,
+    IN_GX_SLOPE,
+    IN_GY_MEAN,
+    IN_GY_SLOPE,
+    IN_ETA_MEAN,
+    IN_ETA_SLOPE
+};
 
 /* Rows at t in [0, 1] of an element of length h, all freedoms: node 1, node 2, inner. */
 struct element_rows {
     double strain[SECTION_STRAIN_COUNT * ELEMENT_ALL];
+    double eta[ELEMENT_ALL];
     double motion[SECTION_MOTION_COUNT * ELEMENT_ALL];
 };
 void element_rows(double t, double h, struct element_rows *out);

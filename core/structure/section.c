@@ -44,6 +44,34 @@ static void integrate_mass(const struct contour *c, const struct laminate *lam,
     }
 }
 
+/* Twist without warping, eta: the wall turns as a whole, gamma_sz = r_n + n, gamma_nz = -r_t. */
+static void integrate_warping_shear(const struct contour *c, const struct laminate *lam,
+                                    const struct warping *w, double *out)
+{
+    memset(out, 0, (size_t)(N + 1) * sizeof *out);
+    for (int i = 0; i < c->n_element * CONTOUR_GAUSS; i++) {
+        const struct contour_element *el = &c->element[i / CONTOUR_GAUSS];
+        const struct laminate *l = &lam[el->laminate];
+        const struct contour_point p = contour_at(el, contour_gauss_point[i % CONTOUR_GAUSS]);
+        const double weight = contour_gauss_weight[i % CONTOUR_GAUSS] * p.jacobian;
+        const double eta[WALL_STRAINS] = {[W_GAMMA] = p.r_n, [W_TWIST] = 1.0};
+        double e[WALL_STRAINS * N], stress[WALL_STRAINS], self = l->shear_zn * p.r_t * p.r_t;
+        warping_strains(w, el, &p, e);
+        for (int r = 0; r < WALL_STRAINS; r++) {
+            stress[r] = warping_flow(l->reduced, r, eta);
+            self += eta[r] * stress[r];
+        }
+        for (int k = 0; k < N; k++) {
+            double sum = -l->shear_zn * p.r_t * warping_normal_shear(w, el, &p, k);
+            for (int r = 0; r < WALL_STRAINS; r++) {
+                sum += stress[r] * e[num_at(r, k, WALL_STRAINS)];
+            }
+            out[k] += weight * sum;
+        }
+        out[N] += weight * self;
+    }
+}
+
 enum status section_build(const struct contour *c, const struct laminate *laminate,
                           struct section *out)
 {
@@ -58,6 +86,8 @@ enum status section_build(const struct contour *c, const struct laminate *lamina
     warping_stiffness(c, laminate, &retained, N, s.stiffness);
     integrate_mass(c, laminate, &classic, s.mass);
     integrate_mass(c, laminate, &retained, s.mass_retained);
+    s.has_warping_shear = c->shear == WALL_SHEAR_FLEXIBLE;
+    integrate_warping_shear(c, laminate, &retained, s.warping_shear);
     if (!num_all_finite(SECTION_CLASSIC * SECTION_CLASSIC, s.classic) ||
         !num_all_finite(N * N, s.stiffness)) {
         st = ST_NOT_FINITE;

@@ -13,6 +13,8 @@
 
 #include "core/structure/warping.h"
 
+#include <stdbool.h>
+
 enum section_motion { M_U, M_V, M_W, M_DV, M_DU, M_THETA, M_DTHETA, SECTION_MOTION_COUNT };
 
 struct section {
@@ -22,6 +24,12 @@ struct section {
     double mass[SECTION_MOTION_COUNT * SECTION_MOTION_COUNT];   /* (A.35), order of U there */
     /* The same with v', u' read as -phi, psi. */
     double mass_retained[SECTION_MOTION_COUNT * SECTION_MOTION_COUNT];
+    /* Flexible walls, retained shears: stiffness of eta = theta' - chi against the strains (the
+     * columns of `stiffness`) and, last, itself, where chi is the amplitude of the warping; at a
+     * clamp that holds the warping the section can still twist by eta. Not used with rigid walls.
+     */
+    bool has_warping_shear;
+    double warping_shear[SECTION_STRAIN_COUNT + 1];
 };
 
 /* Integrates the walls. laminate[] is indexed by contour_element.laminate. */
