@@ -84,7 +84,7 @@ enum beam_freedom beam_freedom_at(const struct beam *b, int index);
 struct beam_motion {
     double u, v, w;         /* [m] */
     double psi, phi, theta; /* rotations about y, x, z [rad]; phi = -v' without shear */
-    double theta_rate;      /* theta' [rad/m] */
+    double theta_rate;      /* theta'; with flexible walls the amplitude of the warping [rad/m] */
 };
 struct beam_motion beam_motion_at(const struct beam *b, const double *x, double z);
 

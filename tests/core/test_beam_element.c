@@ -20,11 +20,8 @@ static void strains_are_derivatives_of_motions(void **state)
     static const struct {
         int strain, motion;
         double sign;
-    } pair[] = {{S_W, M_W, 1.0},
-                {S_PSI, M_DU, 1.0},
-                {S_PHI, M_DV, -1.0},
-                {S_THETA, M_THETA, 1.0},
-                {S_THETA2, M_DTHETA, 1.0}};
+    } pair[] = {
+        {S_W, M_W, 1.0}, {S_PSI, M_DU, 1.0}, {S_PHI, M_DV, -1.0}, {S_THETA2, M_DTHETA, 1.0}};
     const double step = 1e-5;
     for (double t = 0.1; t < 1.0; t += 0.2) {
         struct element_rows at, before, after;
@@ -43,7 +40,8 @@ static void strains_are_derivatives_of_motions(void **state)
     }
 }
 
-/* The rotation of the section is the slope less the shear, at every point and for every freedom. */
+/* The rotation of the section is the slope less the shear, and the amplitude of the warping the
+ * twist rate less eta, at every point and for every freedom. */
 static void slope_is_rotation_and_shear(void **state)
 {
     (void)state;
@@ -58,7 +56,11 @@ static void slope_is_rotation_and_shear(void **state)
             const double du = (after.motion[M_U + c] - before.motion[M_U + c]) / (2.0 * step * h);
             const double dv = (after.motion[M_V + c] - before.motion[M_V + c]) / (2.0 * step * h);
             assert_near_abs(at.motion[M_DU + c] + at.strain[S_GXZ + s], du, 1e-7);
+            const double twist =
+                (after.motion[M_THETA + c] - before.motion[M_THETA + c]) / (2.0 * step * h);
             assert_near_abs(at.motion[M_DV + c] + at.strain[S_GYZ + s], dv, 1e-7);
+            assert_near_abs(at.strain[S_THETA + s] + at.eta[i], twist, 1e-7);
+            assert_near_abs(at.strain[S_THETA + s], at.motion[M_DTHETA + c], 1e-12);
         }
     }
 }
