@@ -69,8 +69,8 @@ static bool must_stop(struct march *march)
         march->stop = STOP_AMPLITUDE;
         return true;
     }
-    /* The initial state counts as well. */
-    if ((double)march->outside_steps > s->outside_max * (case_def_steps(&march->model->def) + 1)) {
+    /* Of all states of the run, the initial one included. */
+    if ((double)march->outside_steps > s->outside_max * r->capacity) {
         march->stop = STOP_OUTSIDE_POLAR;
         return true;
     }

@@ -54,32 +54,6 @@ static void refer(const struct section *s, double xt, double yt, double xs, doub
     }
 }
 
-/* Stiffness of `keep` with the strains of `release` free. */
-static enum status released(const double *k, int n_keep, const int *keep, int n_release,
-                            const int *release, double *out)
-{
-    double a[C * C], b[C * C];
-    for (int i = 0; i < n_release; i++) {
-        for (int j = 0; j < n_release; j++) {
-            a[i + n_release * j] = k[num_at(release[i], release[j], C)];
-        }
-        for (int j = 0; j < n_keep; j++) {
-            b[i + n_release * j] = k[num_at(release[i], keep[j], C)];
-        }
-    }
-    const enum status st = la_solve_symmetric(n_release, a, n_keep, b);
-    for (int i = 0; i < n_keep && st == ST_OK; i++) {
-        for (int j = 0; j < n_keep; j++) {
-            double sum = k[num_at(keep[i], keep[j], C)];
-            for (int p = 0; p < n_release; p++) {
-                sum -= k[num_at(keep[i], release[p], C)] * b[p + n_release * j];
-            }
-            out[i + n_keep * j] = sum;
-        }
-    }
-    return st;
-}
-
 static void mass_properties(const struct section *s, struct centres *out)
 {
     out->mass = s->mass[num_at(M_U, M_U, M)];
@@ -102,14 +76,13 @@ static void principal(const double ei[4], struct centres *out)
 
 enum status centres_find(const struct section *s, struct centres *out)
 {
-    /* theta'' is not among what is let free: far from the ends of a beam it is zero. */
     static const int axial_bending[3] = {S_W, S_PSI, S_PHI}, bending[2] = {S_PSI, S_PHI};
-    static const int torsion[1] = {S_THETA}, not_bending[2] = {S_W, S_THETA};
+    static const int torsion[1] = {S_THETA};
     struct centres c = {0};
     double f[FLEX * FLEX], ab[9], ei[4], referred[C * C];
     enum status st = flexibility(s, f);
     if (st == ST_OK) {
-        st = released(s->classic, 3, axial_bending, 1, torsion, ab);
+        st = section_condense(s, 3, axial_bending, ab);
     }
     if (st != ST_OK) {
         return st;
@@ -122,9 +95,9 @@ enum status centres_find(const struct section *s, struct centres *out)
     c.shear_x = -f[num_at(F_THETA, F_GYZ, FLEX)] / f[num_at(F_THETA, F_THETA, FLEX)];
     c.shear_y = f[num_at(F_THETA, F_GXZ, FLEX)] / f[num_at(F_THETA, F_THETA, FLEX)];
     refer(s, c.tension_x, c.tension_y, c.shear_x, c.shear_y, referred);
-    st = released(s->classic, 2, bending, 2, not_bending, ei);
+    st = section_condense(s, 2, bending, ei);
     if (st == ST_OK) {
-        st = released(s->classic, 1, torsion, 3, axial_bending, &c.gj);
+        st = section_condense(s, 1, torsion, &c.gj);
     }
     if (st != ST_OK) {
         return st;

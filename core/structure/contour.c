@@ -1,27 +1,7 @@
 #include "core/structure/contour.h"
 
-#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
-
-enum status contour_strip(double chord, int elements, struct contour *out)
-{
-    assert(chord > 0.0);
-    assert(elements >= 1);
-    struct contour_element *e = calloc((size_t)elements, sizeof *e);
-    if (e == NULL) {
-        return ST_NO_MEMORY;
-    }
-    for (int i = 0; i < elements; i++) {
-        for (int k = 0; k < 3; k++) {
-            e[i].node[k] = 2 * i + k;
-        }
-        e[i].x[0] = chord * (0.5 - (double)i / elements);
-        e[i].x[1] = chord * (0.5 - (double)(i + 1) / elements);
-    }
-    *out = (struct contour){.n_node = 2 * elements + 1, .n_element = elements, .element = e};
-    return ST_OK;
-}
 
 void contour_done(struct contour *c)
 {

@@ -27,9 +27,6 @@ struct contour {
     struct contour_element *element; /* (n_element) */
 };
 
-/* The flat strip: one wall on y = 0 from the leading edge (+chord/2) to the trailing edge, so that
- * +s points aft and +n up. Laminate 0. */
-MUST_CHECK enum status contour_strip(double chord, int elements, struct contour *out);
 void contour_done(struct contour *c);
 
 /* Geometry of the wall at a point of an element, xi in [-1, 1]. */

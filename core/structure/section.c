@@ -100,11 +100,10 @@ out:
     return st;
 }
 
-/* Schur complement of the classic matrix on the kept strains. theta'' is held: far from the ends of
- * a beam it is zero. */
-static enum status condense(const double *full, int n_keep, const int *keep, double *out)
+enum status section_condense(const struct section *s, int n_keep, const int *keep, double *out)
 {
     enum { C = SECTION_CLASSIC };
+    const double *full = s->classic;
     int drop[C], n_drop = 0;
     for (int i = 0; i < S_THETA2; i++) {
         bool kept = false;
@@ -142,9 +141,9 @@ enum status section_summarise(const struct section *s, struct section_summary *o
     static const int flap_torsion[2] = {S_PHI, S_THETA};
     static const int lag_torsion[2] = {S_PSI, S_THETA};
     double flap[4], lag[4];
-    enum status st = condense(s->classic, 2, flap_torsion, flap);
+    enum status st = section_condense(s, 2, flap_torsion, flap);
     if (st == ST_OK) {
-        st = condense(s->classic, 2, lag_torsion, lag);
+        st = section_condense(s, 2, lag_torsion, lag);
     }
     if (st == ST_OK) {
         *out = (struct section_summary){

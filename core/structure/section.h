@@ -36,6 +36,11 @@ struct section {
 MUST_CHECK enum status section_build(const struct contour *c, const struct laminate *laminate,
                                      struct section *out);
 
+/* Classic stiffness of the kept strains (n_keep x n_keep) with the others of w', psi', phi', theta'
+ * free. theta'' is zero: it is, far from the ends of a beam. */
+MUST_CHECK enum status section_condense(const struct section *s, int n_keep, const int *keep,
+                                        double *out);
+
 /* What designers read off the classic matrix: each stiffness with axial force and the curvature
  * in the other plane free, theta'' zero. [N m^2] */
 struct section_summary {

@@ -1,11 +1,18 @@
-#include "core/structure/contour.h"
+#include "core/structure/shape.h"
 #include "tests/support/unit.h"
 
 static void a_strip_runs_from_leading_to_trailing_edge(void **state)
 {
     (void)state;
+    static struct shape shape = {
+        .type = SECTION_STRIP, .width = 0.1, .n_layup = 1, .cells = -1, .contour_elements = 5};
+    static struct laminate laminate[LIMIT_WALLS];
     struct contour c;
-    assert_ok(contour_strip(0.1, 5, &c));
+    shape.layup[0] =
+        (struct layup){.n_ply = 1,
+                       .ply = {{.material = {.e_l = 1.0, .e_t = 1.0, .g_lt = 1.0, .g_tt = 1.0},
+                                .thickness = 1e-3}}};
+    assert_ok(shape_build(&shape, &c, laminate));
     assert_int_equal(c.n_element, 5);
     assert_int_equal(c.n_node, 11);
     assert_near_abs(c.element[0].x[0], 0.05, 1e-16);
