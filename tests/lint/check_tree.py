@@ -6,7 +6,9 @@
 Each rule is a generator of findings (file, line, text); one finding makes the script fail."""
 
 import argparse
+import csv
 import json
+import math
 import re
 import shutil
 import subprocess
@@ -46,6 +48,7 @@ SPEAKING_CALLS = ("printf", "fprintf", "puts", "fopen", "exit", "abort", "getenv
                   "clock_gettime", "clock")
 # Parts of one module that share a header under another name: path of the parts -> header.
 SHARED_HEADERS = {r"api/handle_\w+\.c": "api/route.h"}
+RECORD_COLUMNS = ["t", "alpha_deg", "alpha_dot", "alpha_ddot", "w", "w_dot", "w_ddot", "cl", "cd", "cm"]
 FILE_LINES_MAX = 500
 FUNCTION_LINES_MAX = 60
 
@@ -238,6 +241,53 @@ def rule_data(root):
                                 text=True, check=False)
         if result.returncode != 0:
             yield script, 1, (result.stderr.strip() or "--check failed").splitlines()[-1]
+
+
+def record_faults(path, row):
+    """What is wrong with one record of the flow computations, given its line of the index."""
+    with open(path, newline="", encoding="ascii") as file:
+        rows = list(csv.reader(file))
+    if rows[0] != RECORD_COLUMNS:
+        yield 1, "the columns are not %s" % ",".join(RECORD_COLUMNS)
+        return
+    if len(rows) - 1 != int(row["samples"]):
+        yield len(rows), "%d samples, the index says %s" % (len(rows) - 1, row["samples"])
+    for number, cells in enumerate(rows[1:], 2):
+        try:
+            values = [float(cell) for cell in cells]
+        except ValueError:
+            values = []
+        if len(values) != len(RECORD_COLUMNS) or not all(map(math.isfinite, values)):
+            yield number, "not %d finite numbers" % len(RECORD_COLUMNS)
+        elif abs(values[0] - (number - 1) * float(row["interval"])) > 1e-6:
+            yield number, "time %g is not %d intervals of %s" % (values[0], number - 1, row["interval"])
+
+
+def rule_records(root):
+    """The records of the flow computations are those of their index, and the index has the settings of
+    the design."""
+    folder = root / "data" / "cfd"
+    index = folder / "index.csv"
+    if not index.is_file():
+        return
+    tables = {}
+    for path in (index, folder / "design.csv"):
+        with open(path, newline="", encoding="ascii") as file:
+            tables[path.stem] = {row["name"]: row for row in csv.DictReader(file)}
+    for number, (name, row) in enumerate(tables["index"].items(), 2):
+        settings = tables["design"].get(name)
+        if settings is None or any(row[key] != value for key, value in settings.items()):
+            yield index, number, "%s is not a run of the design" % name
+        record = folder / "records" / (name + ".csv")
+        if record.is_file() != (row["status"] == "done"):
+            yield index, number, "%s has the status %s %s a record" % (
+                name, row["status"], "with" if record.is_file() else "without")
+        elif record.is_file():
+            for line, text in record_faults(record, row):
+                yield record, line, text
+    for path in sorted((folder / "records").glob("*")):
+        if path.suffix != ".csv" or path.stem not in tables["index"]:
+            yield path, 1, "is not in the index"
 
 
 RULES = {name[len("rule_"):]: rule for name, rule in list(globals().items())

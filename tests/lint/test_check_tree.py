@@ -12,8 +12,13 @@ HEADER = "/* core/a.h\n * A. */\n#ifndef AEROM_CORE_A_H\n#define AEROM_CORE_A_H\
 SOURCE = '#include "core/a.h"\n\nint a_one(void)\n{\n    return 1; /* not sprintf( */\n}\n'
 MATERIAL = '{ "provenance": "here", "materials": [{ "name": "m" }] }\n'
 EQUATIONS = "| equation | function |\n|---|---|\n| (A.4) | `a_one` |\n"
+DESIGN = "name,re\nr,1\n"
+INDEX = "name,re,status,interval,samples\nr,1,done,0.1,2\n"
+RECORD = ("t,alpha_deg,alpha_dot,alpha_ddot,w,w_dot,w_ddot,cl,cd,cm\n"
+          "0.1,2,0,0,0,0,0,0.3,0.1,0.1\n0.2,2,0,0,0,0,0,0.3,0.1,0.1\n")
 CLEAN = {"core/a.h": HEADER, "core/a.c": SOURCE, "data/materials/m.json": MATERIAL,
-         "docs/EQUATIONS.md": EQUATIONS}
+         "docs/EQUATIONS.md": EQUATIONS, "data/cfd/design.csv": DESIGN, "data/cfd/index.csv": INDEX,
+         "data/cfd/records/r.csv": RECORD}
 
 # rule, files that replace or join those of the clean tree, what the finding must say
 FAULTS = [
@@ -42,6 +47,13 @@ FAULTS = [
     ("data", {"data/materials/n.json": "{"}, "not JSON"),
     ("data", {"data/polars/p.json": '{ "name": "p" }\n'}, "no provenance"),
     ("data", {"data/polars/build_p.py": "import sys\nsys.exit('differs')\n"}, "differs"),
+    ("records", {"data/cfd/design.csv": "name,re\nr,2\n"}, "not a run of the design"),
+    ("records", {"data/cfd/index.csv": INDEX.replace("done", "failed")}, "status failed with a record"),
+    ("records", {"data/cfd/records/s.csv": RECORD}, "is not in the index"),
+    ("records", {"data/cfd/records/r.csv": RECORD.replace("w,w_dot", "w_dot,w")}, "the columns"),
+    ("records", {"data/cfd/records/r.csv": RECORD + "0.3,2,0,0,0,0,0,0.3,0.1,0.1\n"}, "3 samples"),
+    ("records", {"data/cfd/records/r.csv": RECORD.replace("0.2,", "0.25,")}, "time 0.25"),
+    ("records", {"data/cfd/records/r.csv": RECORD.replace("0.3,0.1", "nan,0.1")}, "finite numbers"),
 ]
 
 

@@ -1,0 +1,261 @@
+#!/usr/bin/env python3
+"""Builds ../design.csv, the list of all runs in the order in which they are to be computed.
+
+Every prefix of the list is useful: first the angles of the polar at mid-channel, then all blocks in
+proportion. Points of the sines come from a Halton sequence, the phases of the broadband records from
+seeded random numbers, so that the same list is built anywhere. `--check` compares only.
+"""
+
+import argparse
+import csv
+import io
+import math
+import random
+import sys
+from pathlib import Path
+
+TARGET = Path(__file__).resolve().parents[1] / "design.csv"
+COLUMNS = ("name", "block", "mean_deg", "plunge_c", "re", "mesh", "thickness", "edge", "step", "end",
+           "pitch", "plunge", "cycles_skipped", "cycles")
+ATTACHED_DEG = 4.5  # above it the bubble of the leading edge opens and cycles differ
+SETTLE = 8.0        # [c/V] of forced motion left out before cycles are counted
+FAST = 0.2          # frequencies from here on take the short step and cost little
+W_DOT_MAX = 0.12    # largest plunge rate of one tone [V]
+
+
+def halton(index, base):
+    """The index-th number of the Halton sequence of a base, in [0, 1)."""
+    result, scale = 0.0, 1.0
+    while index > 0:
+        scale /= base
+        index, digit = divmod(index, base)
+        result += scale * digit
+    return result
+
+
+def between(low, high, share):
+    return low + (high - low) * share
+
+
+def log_between(low, high, share):
+    return low * (high / low) ** share
+
+
+def run(name, block, **settings):
+    """One row of the design; what is not said is the standard: production mesh, Re 20,000, 4 %."""
+    row = dict(mean_deg=0.0, plunge_c=0.0, re=20000, mesh="production", thickness=0.04, edge="square",
+               step=0.01, end=40.0, pitch="", plunge="", cycles_skipped=0, cycles=0)
+    row.update(settings, name=name, block=block)
+    return row
+
+
+def sine(name, block, mean, frequency, pitch=0.0, plunge=0.0, phase=0.0, **settings):
+    """Pitch and plunge of one frequency, plunge ahead of pitch by `phase` degrees. The incidence
+    the plunge rate makes counts when the record is sorted into attached or separated."""
+    incidence = abs(mean) + math.hypot(pitch, math.degrees(2.0 * math.pi * frequency * plunge))
+    skipped = max(1, math.ceil(SETTLE * frequency))
+    cycles = 2 if incidence <= ATTACHED_DEG else 4
+    cycles = max(cycles, math.ceil(1.5 * SETTLE * frequency))
+    values = dict(step=0.01 if frequency >= FAST else 0.02, cycles_skipped=skipped, cycles=cycles,
+                  end=math.ceil(2.0 + (skipped + cycles) / frequency))
+    if pitch:
+        values["pitch"] = "%g@%g+0" % (pitch, frequency)
+    if plunge:
+        values["plunge"] = "%g@%g+%g" % (plunge, frequency, phase)
+    values.update(settings)
+    return run(name, block, mean_deg=mean, **values)
+
+
+def statics():
+    """The polar at mid-channel: even angles first, then the odd ones."""
+    for angle in list(range(0, 21, 2)) + list(range(1, 21, 2)):
+        yield run("static_a%02d" % angle, "static", mean_deg=angle, end=40.0 if angle <= 6 else 60.0)
+
+
+def statics_off_centre():
+    """The effect of the plunge position; w < 0 follows by symmetry."""
+    for plunge in (1.0, 0.5):
+        for angle in (3, -3, 10, -10, 20, -20, 6, -6, 15, -15, 0):
+            sign = "-" if angle < 0 else ""
+            yield run("static_a%s%02d_w%g" % (sign, abs(angle), plunge), "static_plunge",
+                      mean_deg=angle, plunge_c=plunge, end=30.0 if abs(angle) <= 6 else 50.0)
+
+
+def slow(share):
+    return round(log_between(0.03, 0.16, share), 3)
+
+
+def fast(share):
+    return round(log_between(FAST, 0.8, share), 2)
+
+
+def mean_angle(share):
+    return round(2.0 * between(0.0, 12.0, share)) / 2.0
+
+
+def pitch_amplitude(frequency, share):
+    """1 to 8 deg slowly, less where the rate would be larger than a beam's."""
+    return round(between(1.0, 8.0, share) * min(1.0, 0.25 / frequency), 1)
+
+
+def plunge_amplitude(frequency, share):
+    return float("%.2g" % (between(0.2, 1.0, share) * min(0.35, W_DOT_MAX / (2.0 * math.pi * frequency))))
+
+
+def sines():
+    """Pitch, plunge and both at one frequency: slow ones between 0.03 and 0.16, where bending is, and
+    fast ones up to 0.8, where torsion is."""
+    for kind, slow_count, fast_count, offset in (("pitch", 20, 8, 1), ("plunge", 14, 6, 41),
+                                                 ("both", 14, 6, 71)):
+        for group, count, frequency_of in (("slow", slow_count, slow), ("fast", fast_count, fast)):
+            start = offset if group == "slow" else offset + 200
+            for i in range(start, start + count):
+                f = frequency_of(halton(i, 2))
+                mean = mean_angle(halton(i, 3))
+                a = pitch_amplitude(f, halton(i, 5)) if kind != "plunge" else 0.0
+                w = plunge_amplitude(f, halton(i, 7)) if kind != "pitch" else 0.0
+                phase = 45.0 * math.floor(8.0 * halton(i, 11)) if kind == "both" else 0.0
+                name = "%s_m%g" % ("pitchplunge" if kind == "both" else kind, mean)
+                name += ("_a%g" % a if a else "") + ("_w%g" % w if w else "") + "_f%g" % f
+                yield sine(name, "sine_%s_%s" % (kind, group), mean, f, a, w, phase)
+
+
+def anchors(block, suffix="", points=None, **settings):
+    """Cases of the literature and of earlier studies, repeated under other settings."""
+    for mean, amplitude, frequency in points or ((2.5, 5, 0.125), (8, 6, 0.06), (5, 7, 0.25),
+                                                 (0, 1, 0.125)):
+        yield sine("pitch_m%g_a%g_f%g%s" % (mean, amplitude, frequency, suffix), block, mean,
+                   frequency, amplitude, **settings)
+
+
+def tones(rng, amplitude_of, count=8):
+    """Tones between 0.03 and 0.8, five of eight below 0.15, random phases."""
+    terms = []
+    for i in range(count):
+        low, high, j, n = (0.03, 0.15, i, 5) if i < 5 else (0.15, 0.8, i - 5, count - 5)
+        f = round(log_between(low, high, (j + rng.random()) / n), 3)
+        terms.append("%g@%g+%d" % (amplitude_of(f), f, 360.0 * rng.random()))
+    return " ".join(terms)
+
+
+def multisine(name, block, number, mean, pitch_scale=0.0, plunge_scale=0.0, **settings):
+    """Eight tones in pitch, in plunge or in both (then of different frequencies). A pitch scale of 1
+    is a tone of 1 deg up to f = 0.15 and of constant rate above; a plunge scale of 1 is a tone with a
+    rate of 0.03 V, at most 0.12 c."""
+    rng = random.Random(number)
+    values = dict(step=0.02, end=102.0)
+    if pitch_scale:
+        values["pitch"] = tones(rng, lambda f: round(pitch_scale * min(1.0, 0.15 / f), 3))
+    if plunge_scale:
+        values["plunge"] = tones(
+            rng, lambda f: round(plunge_scale * min(0.12, 0.03 / (2.0 * math.pi * f)), 4))
+    values.update(settings)
+    return run(name, block, mean_deg=mean, **values)
+
+
+def broadband():
+    """Records with many frequencies: multisines and linear sweeps."""
+    pitch_means, both_means, plunge_means = ((2, 6, 0, 9, 4, 12), (3, 7, 0, 10, 5, 1, 8, 12, 2, 6),
+                                             (2, 6, 10, 4))
+    for i, mean in enumerate(pitch_means):
+        yield multisine("multisine_pitch_m%g_%d" % (mean, i + 1), "broadband_pitch", 100 + i, mean,
+                        pitch_scale=(2.0, 1.0)[i % 2])
+    for i, mean in enumerate(both_means):
+        yield multisine("multisine_pitchplunge_m%g_%d" % (mean, i + 1), "broadband_both", 200 + i, mean,
+                        pitch_scale=(1.0, 1.6, 0.5)[i % 3], plunge_scale=(1.0, 1.4, 0.6)[i // 2 % 3])
+    for i, mean in enumerate(plunge_means):
+        yield multisine("multisine_plunge_m%g_%d" % (mean, i + 1), "broadband_plunge", 300 + i, mean,
+                        plunge_scale=(1.4, 0.8)[i % 2])
+    for mean, sweep in ((3, "5@0.03>0.2+0"), (8, "4@0.03>0.2+0"), (4, "1.5@0.2>0.8+0"),
+                        (9, "1@0.2>0.8+0")):
+        slow_sweep = ">0.2+" in sweep
+        yield run("sweep_pitch_m%g_%s" % (mean, "slow" if slow_sweep else "fast"), "broadband_pitch",
+                  mean_deg=mean, pitch=sweep, step=0.02 if slow_sweep else 0.01,
+                  end=82.0 if slow_sweep else 42.0)
+    for mean, sweep in ((2, "0.15@0.03>0.15+0"), (7, "0.15@0.03>0.15+0"), (5, "0.03@0.15>0.8+0")):
+        slow_sweep = ">0.15+" in sweep
+        yield run("sweep_plunge_m%g_%s" % (mean, "slow" if slow_sweep else "fast"), "broadband_plunge",
+                  mean_deg=mean, plunge=sweep, step=0.02 if slow_sweep else 0.01,
+                  end=82.0 if slow_sweep else 42.0)
+
+
+def reynolds():
+    """Two other Reynolds numbers: angles, sines, one broadband record each."""
+    for re in (6000, 50000):
+        for angle in (2, 10, 4, 6, 14):
+            yield run("static_a%02d_re%d" % (angle, re), "reynolds", mean_deg=angle, re=re,
+                      end=30.0 if angle <= 6 else 50.0)
+        yield from anchors("reynolds", "_re%d" % re, ((2.5, 5, 0.125), (8, 6, 0.06)), re=re)
+        yield multisine("multisine_pitchplunge_m6_re%d" % re, "reynolds", 400, 6, pitch_scale=1.0,
+                        plunge_scale=1.0, re=re, end=62.0)
+
+
+def slope_checks():
+    """What the polar owes to mesh, thickness and leading edge."""
+    def check(angle, suffix, **settings):
+        settings.setdefault("end", 30.0 if angle <= 6 else 50.0)
+        return run("static_a%02d_%s" % (angle, suffix), "check_static", mean_deg=angle, **settings)
+
+    coarse, medium = dict(mesh="coarse", step=0.005), dict(mesh="medium", step=0.0025)
+    return [check(2, "coarse", **coarse), check(16, "coarse", **coarse),
+            check(2, "medium", end=24.0, **medium), check(2, "round", edge="round"),
+            check(6, "coarse", **coarse), check(6, "round", edge="round"),
+            check(2, "t2", thickness=0.02), check(12, "coarse", **coarse),
+            check(12, "round", edge="round"), check(2, "t1", thickness=0.01)]
+
+
+def motion_checks():
+    """Sines again at half the step and on the coarse mesh."""
+    first, stalled = (2.5, 5, 0.125), (8, 6, 0.06)
+    yield from anchors("check_sine", "_step0.01", (first, stalled), step=0.01)
+    yield from anchors("check_sine", "_coarse", (first,), mesh="coarse", step=0.005, cycles=2, end=26.0)
+    yield sine("plunge_m4_w0.15_f0.08_step0.01", "check_sine", 4, 0.08, plunge=0.15, step=0.01)
+    yield from anchors("check_sine", "_coarse", ((5, 7, 0.25),), mesh="coarse", step=0.005)
+
+
+def plunge_anchors():
+    yield sine("plunge_m4_w0.15_f0.08", "sine_plunge_slow", 4, 0.08, plunge=0.15)
+    yield sine("plunge_m8_w0.15_f0.08", "sine_plunge_slow", 8, 0.08, plunge=0.15)
+    yield sine("pitchplunge_m2.5_a4_w0.15_f0.125", "sine_both_slow", 2.5, 0.125, 4, 0.15, 90.0)
+
+
+def document_rows():
+    """All rows in order. Within a block the i-th of n rows has the rank (i + 1/2) / n, drawn forward
+    where the polar waits for it; the angles at mid-channel come before everything."""
+    urgency = {"static": 0.0, "static_plunge": 0.45, "check_static": 0.5}
+    blocks = {}
+    for source in (statics(), anchors("sine_pitch_slow"), plunge_anchors(), sines(), broadband(),
+                   statics_off_centre(), slope_checks(), reynolds(), motion_checks()):
+        for row in source:
+            blocks.setdefault(row["block"], []).append(row)
+    ranked = [((i + 0.5) / len(rows) * urgency.get(block, 1.0), k, i, row)
+              for k, (block, rows) in enumerate(blocks.items()) for i, row in enumerate(rows)]
+    return [entry[3] for entry in sorted(ranked, key=lambda entry: entry[:3])]
+
+
+def text_of(rows):
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for row in rows:
+        writer.writerow(["%g" % row[c] if isinstance(row[c], float) else row[c] for c in COLUMNS])
+    return buffer.getvalue()
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Build design.csv.")
+    parser.add_argument("--check", action="store_true",
+                        help="write nothing; fail when the committed file differs")
+    text = text_of(document_rows())
+    if not parser.parse_args().check:
+        TARGET.write_text(text, encoding="ascii")
+        return 0
+    if TARGET.exists() and TARGET.read_text(encoding="ascii") == text:
+        return 0
+    print("%s differs from what its script builds: run the script without --check" % TARGET,
+          file=sys.stderr)
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
