@@ -15,7 +15,8 @@
 #include <stdbool.h>
 
 enum case_kind { CASE_SIMULATION, CASE_MODES, CASE_SECTION, CASE_STATIC, CASE_KIND_COUNT };
-enum dynamic_type { DYNAMIC_NONE, DYNAMIC_NETWORK };
+/* What is added to the steady polar: nothing; a network; the wake's lag and apparent mass. */
+enum dynamic_type { DYNAMIC_NONE, DYNAMIC_NETWORK, DYNAMIC_ATTACHED };
 enum integrator { INTEGRATOR_EXPONENTIAL, INTEGRATOR_RK4_ADAPTIVE };
 enum start_type { START_REST, START_EQUILIBRIUM, START_AMPLITUDES };
 

@@ -1,6 +1,7 @@
 #include "core/sim.h"
 
 #include "core/analysis/equilibrium.h"
+#include "core/coupling/apparent_mass.h"
 #include "core/la.h"
 #include "core/num.h"
 
@@ -230,8 +231,9 @@ static enum status set_start(struct sim *s, struct failure *fail)
     const struct solver_def *solver = &s->model.def.solver;
     struct workspace *w = &s->workspace;
     if (solver->start == START_AMPLITUDES) {
-        memcpy(w->q, solver->amplitude, (size_t)solver->n_amplitude * sizeof *w->q);
-        memcpy(w->qd, solver->velocity, (size_t)solver->n_amplitude * sizeof *w->qd);
+        /* Those that are not given are zero. */
+        apparent_mass_from_vacuo(&s->model, solver->amplitude, w->q);
+        apparent_mass_from_vacuo(&s->model, solver->velocity, w->qd);
     }
     if (solver->start != START_EQUILIBRIUM) {
         return ST_OK;

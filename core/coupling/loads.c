@@ -42,15 +42,38 @@ static void kinematics(const struct model *m, struct workspace *w)
     }
 }
 
+/* alpha_34 = alpha_s + c theta_dot/(4 V) and what the wake lets act of it. */
+static void wake_lag(const struct model *m, struct workspace *w, bool steady)
+{
+    const int n = w->n_station;
+    if (m->attached.n == 0) {
+        return;
+    }
+    memcpy(w->alpha_34_previous, w->alpha_34, (size_t)n * sizeof *w->alpha_34);
+    fill(n, 0.0, w->pitch_rate);
+    to_stations(m, m->station_theta, w->qd, 1.0 / m->def.flow.speed, w->pitch_rate);
+    for (int i = 0; i < n; i++) {
+        w->pitch_rate[i] *= m->chord[i];
+        w->alpha_34[i] = w->alpha_geometric[i] + 0.25 * w->pitch_rate[i];
+    }
+    if (steady) {
+        attached_steady(n, w->alpha_34, w->wake);
+    } else {
+        attached_step(&m->attached, w->alpha_34_previous, w->alpha_34, w->wake);
+    }
+    attached_angle(n, w->alpha_34, w->wake, w->alpha_wake);
+}
+
 static void solve_induced(const struct model *m, struct workspace *w)
 {
     const size_t bytes = (size_t)w->n_station * sizeof *w->alpha;
+    const double *angle = m->attached.n > 0 ? w->alpha_wake : w->alpha_geometric;
     if (m->lifting_line.n == 0) {
-        memcpy(w->alpha, w->alpha_geometric, bytes);
+        memcpy(w->alpha, angle, bytes);
         return; /* w->induced stays zero */
     }
-    const struct lifting_line_report r = lifting_line_solve(
-        &m->lifting_line, m->polar, w->alpha_geometric, w->plunge, &w->lifting_line);
+    const struct lifting_line_report r =
+        lifting_line_solve(&m->lifting_line, m->polar, angle, w->plunge, &w->lifting_line);
     memcpy(w->alpha, w->lifting_line.alpha, bytes);
     memcpy(w->induced, w->lifting_line.induced, bytes);
     w->counters.not_converged += !r.converged;
@@ -112,7 +135,7 @@ static void advance_mean(struct workspace *w, bool steady)
 /* Section 2.3: increments from (mean alpha, alpha - mean, alpha_dot c/V, alpha_ddot c^2/V^2).
  * The rates come from the modal velocities and accelerations; only the jerk of the plunge is
  * differenced. The slow change of the induced angle is not part of the rates. */
-static void dynamic_increment(const struct model *m, struct workspace *w, bool steady)
+static void network_increment(const struct model *m, struct workspace *w, bool steady)
 {
     if (m->network == NULL) {
         return;
@@ -152,6 +175,39 @@ static void dynamic_increment(const struct model *m, struct workspace *w, bool s
     }
 }
 
+/* Apparent mass in phase with the pitch rate. */
+static void pitch_rate_increment(const struct model *m, struct workspace *w)
+{
+    if (m->attached.n == 0) {
+        return;
+    }
+    for (int i = 0; i < w->n_station; i++) {
+        w->cl[i] += attached_cl_rate() * w->pitch_rate[i];
+        w->cm[i] += attached_cm_rate() * w->pitch_rate[i];
+    }
+}
+
+/* Apparent mass in phase with the accelerations: part of the coefficients that are reported, but of
+ * the mass, not the loads, of the modal equations. */
+static void report_apparent_mass(const struct model *m, struct workspace *w)
+{
+    if (m->attached.n == 0) {
+        return;
+    }
+    const int n = w->n_station;
+    double plunge[LIMIT_ELEMENTS], pitch[LIMIT_ELEMENTS];
+    fill(n, 0.0, plunge);
+    fill(n, 0.0, pitch);
+    to_stations(m, m->station_v, w->qdd, 1.0, plunge);
+    to_stations(m, m->station_theta, w->qdd, 1.0, pitch);
+    for (int i = 0; i < n; i++) {
+        const double density = m->def.flow.density, chord = m->chord[i];
+        const double force = m->dynamic_pressure * chord;
+        w->cl[i] -= attached_mass(density, chord) * plunge[i] / force;
+        w->cm[i] -= attached_inertia(density, chord) * pitch[i] / (force * chord);
+    }
+}
+
 /* Lift normal to the undisturbed stream and drag along it, turned by alpha_0 into the beam frame;
  * then the modal loads, Eq. (C.5). */
 static void modal_loads(const struct model *m, struct workspace *w)
@@ -174,6 +230,9 @@ static void modal_loads(const struct model *m, struct workspace *w)
             sum += u[i] * w->force_x[i] + v[i] * w->force_y[i] + theta[i] * w->moment[i];
         }
         w->load[j] = sum * m->station_length + m->gravity[j];
+        for (int k = 0; k < m->n_mode && m->damping_coupling != NULL; k++) {
+            w->load[j] -= m->damping_coupling[num_at(j, k, m->n_mode)] * w->qd[k];
+        }
     }
 }
 
@@ -181,10 +240,13 @@ void loads_evaluate(const struct model *m, struct workspace *w, bool steady)
 {
     assert(w->n_mode == m->n_mode);
     kinematics(m, w);
+    wake_lag(m, w, steady);
     solve_induced(m, w);
     steady_coefficients(m, w);
-    dynamic_increment(m, w, steady);
+    network_increment(m, w, steady);
+    pitch_rate_increment(m, w);
     modal_loads(m, w);
+    report_apparent_mass(m, w);
 }
 
 struct load_totals loads_total(const struct model *m, const struct workspace *w)

@@ -1,5 +1,6 @@
 #include "core/coupling/model.h"
 
+#include "core/coupling/apparent_mass.h"
 #include "core/num.h"
 
 #include <assert.h>
@@ -262,6 +263,13 @@ static enum status build_aero(struct model *m)
         st = lifting_line_init(m->n_station, b->length, m->chord, a->walls, a->width, a->tolerance,
                                a->iterations_max, &m->lifting_line);
     }
+    if (st == ST_OK && a->dynamic == DYNAMIC_ATTACHED) {
+        st = attached_init(m->n_station, m->chord, m->def.flow.speed, m->def.solver.time_step,
+                           &m->attached);
+    }
+    if (st == ST_OK && a->dynamic == DYNAMIC_ATTACHED) {
+        st = apparent_mass_apply(m);
+    }
     return st;
 }
 
@@ -301,7 +309,9 @@ void model_done(struct model *m)
     polar_destroy(m->polar);
     network_destroy(m->network);
     lifting_line_done(&m->lifting_line);
+    attached_done(&m->attached);
     free(m->omega2);
     free(m->tip);
+    free(m->to_vacuo);
     *m = (struct model){0};
 }

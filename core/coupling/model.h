@@ -4,6 +4,7 @@
 #ifndef AEROM_CORE_COUPLING_MODEL_H
 #define AEROM_CORE_COUPLING_MODEL_H
 
+#include "core/aero/attached.h"
 #include "core/case_def.h"
 #include "core/structure/centres.h"
 #include "core/structure/modes.h"
@@ -21,6 +22,7 @@ struct model {
     struct polar *polar;
     struct network *network;          /* NULL without one */
     struct lifting_line lifting_line; /* n = 0 without one */
+    struct attached attached;         /* n = 0 without a wake that lags */
     int n_mode;
     int n_station;           /* middles of equal parts of the span */
     double station_length;   /* [m] */
@@ -36,6 +38,9 @@ struct model {
     double *station_v;       /* (n_station x n_mode) */
     double *station_theta;   /* (n_station x n_mode) */
     struct beam_motion *tip; /* (n_mode) */
+    /* Only with apparent mass: the modes marched in are those in still air. */
+    double *to_vacuo; /* amplitudes of the modes in vacuo per unit of these (n_mode x n_mode) */
+    double *damping_coupling; /* structural damping off the diagonal (n_mode x n_mode) */
 };
 
 /* Builds from a checked case. On failure *out is unchanged and *fail names the part. */

@@ -1,5 +1,6 @@
 #include "core/coupling/record.h"
 
+#include "core/coupling/apparent_mass.h"
 #include "core/num.h"
 
 #include <assert.h>
@@ -59,7 +60,7 @@ static int put_vector(struct record *r, int row, int column, int n, const double
 
 static int put_channel(const struct model *m, const struct workspace *w, enum channel channel,
                        const struct tip_state *tip, const struct load_totals *total,
-                       struct record *r, int column)
+                       const double *modal, struct record *r, int column)
 {
     const int row = r->n_sample, nm = m->n_mode, ns = m->n_station;
     switch (channel) {
@@ -82,9 +83,9 @@ static int put_channel(const struct model *m, const struct workspace *w, enum ch
     case CHANNEL_CM:
         return put_vector(r, row, column, 1, &total->cm, 1.0);
     case CHANNEL_MODAL_AMPLITUDE:
-        return put_vector(r, row, column, nm, w->q, 1.0);
+        return put_vector(r, row, column, nm, modal, 1.0);
     case CHANNEL_MODAL_VELOCITY:
-        return put_vector(r, row, column, nm, w->qd, 1.0);
+        return put_vector(r, row, column, nm, modal + nm, 1.0);
     case CHANNEL_STATION_PLUNGE: {
         double plunge[LIMIT_ELEMENTS];
         for (int i = 0; i < ns; i++) {
@@ -126,15 +127,17 @@ void record_push(const struct model *m, const struct workspace *w, struct record
     for (int k = 0; k < HISTORY_MODAL; k++) {
         r->history[num_at(r->n, k, r->capacity)] = fixed[k];
     }
-    for (int j = 0; j < r->n_mode; j++) {
-        r->history[num_at(r->n, HISTORY_MODAL + j, r->capacity)] = w->q[j];
-        r->history[num_at(r->n, HISTORY_MODAL + r->n_mode + j, r->capacity)] = w->qd[j];
+    double modal[2 * LIMIT_MODES]; /* amplitudes, velocities */
+    apparent_mass_to_vacuo(m, w->q, modal);
+    apparent_mass_to_vacuo(m, w->qd, modal + r->n_mode);
+    for (int j = 0; j < 2 * r->n_mode; j++) {
+        r->history[num_at(r->n, HISTORY_MODAL + j, r->capacity)] = modal[j];
     }
     r->stalled[r->n] = w->any_stalled;
     if (r->n % m->def.output.sample_every == 0) {
         int column = 0;
         for (int i = 0; i < m->def.output.n_channel; i++) {
-            column += put_channel(m, w, m->def.output.channel[i], &tip, &total, r, column);
+            column += put_channel(m, w, m->def.output.channel[i], &tip, &total, modal, r, column);
         }
         r->n_sample++;
     }

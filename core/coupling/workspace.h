@@ -19,17 +19,22 @@ struct workspace {
     double *qdd_previous; /* those one time step earlier, for the jerk of the plunge */
 
     /* stations (n_station each) */
-    double *plunge;          /* v/c */
-    double *plunge_rate;     /* v_dot/V */
-    double *alpha_geometric; /* alpha_0 + theta - v_dot/V [rad] */
-    double *alpha;           /* effective: less the induced angle [rad] */
-    double *induced;         /* w_i/V [rad] */
-    double *net_in;          /* inputs of the network  (n_station x NET_IN_COUNT) */
-    double *net_out;         /* increments of c_l c_m c_d (n_station x NET_OUT_COUNT) */
-    double *cl, *cd, *cm;    /* total coefficients; cd holds profile and induced drag */
-    double *force_x;         /* per length, towards the leading edge [N/m] */
-    double *force_y;         /* per length, up [N/m] */
-    double *moment;          /* per length, nose-up about mid-chord [N] */
+    double *plunge;            /* v/c */
+    double *plunge_rate;       /* v_dot/V */
+    double *alpha_geometric;   /* alpha_0 + theta - v_dot/V [rad] */
+    double *pitch_rate;        /* theta_dot c/V, with a wake that lags */
+    double *alpha_34;          /* at three quarters of the chord, with a wake that lags [rad] */
+    double *alpha_34_previous; /* one time step earlier */
+    double *wake;              /* states of the wake's lag (n_station x ATTACHED_LAGS) [rad] */
+    double *alpha_wake;        /* alpha_34 as far as the wake lets it act, else unused [rad] */
+    double *alpha;             /* effective: less the induced angle [rad] */
+    double *induced;           /* w_i/V [rad] */
+    double *net_in;            /* inputs of the network  (n_station x NET_IN_COUNT) */
+    double *net_out;           /* increments of c_l c_m c_d (n_station x NET_OUT_COUNT) */
+    double *cl, *cd, *cm;      /* total coefficients; cd holds profile and induced drag */
+    double *force_x;           /* per length, towards the leading edge [N/m] */
+    double *force_y;           /* per length, up [N/m] */
+    double *moment;            /* per length, nose-up about mid-chord [N] */
 
     /* sliding mean of the angle of attack: ring of the last `window` steps */
     int window; /* one period of the first mode in time steps */
