@@ -23,11 +23,6 @@ static enum status from_info(lapack_int info)
     return info == 0 ? ST_OK : ST_SINGULAR;
 }
 
-void la_gemv(int m, int n, const double *a, const double *x, double *y)
-{
-    cblas_dgemv(CblasColMajor, CblasNoTrans, m, n, 1.0, a, m, x, 1, 0.0, y, 1);
-}
-
 enum status la_solve(int n, double *a, int n_rhs, double *b)
 {
     lapack_int *pivot = malloc((size_t)n * sizeof *pivot);

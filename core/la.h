@@ -13,9 +13,6 @@
 void la_process_init(void);
 const char *la_description(void);
 
-/* y (m) = a (m x n) x (n). */
-void la_gemv(int m, int n, const double *a, const double *x, double *y);
-
 /* Solves a x = b for n_rhs right-hand sides; a (n x n) is destroyed, b (n x n_rhs) becomes x. */
 MUST_CHECK enum status la_solve(int n, double *a, int n_rhs, double *b);
 

@@ -1,65 +1,10 @@
 /* The case document: defaults, canonical text, identity, and every way to be wrong. */
-#include "api/case.h"
 #include "core/num.h"
+#include "tests/api/parsing.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
-
-#include "tests/support/near.h"
-
-struct fixture {
-    struct library *lib;
-    struct failure_list *problems;
-};
-
-static int setup(void **state)
-{
-    struct failure fail;
-    struct fixture *f = calloc(1, sizeof *f);
-    f->problems = calloc(1, sizeof *f->problems);
-    if (library_create_builtin(&f->lib, &fail) != ST_OK) {
-        print_error("%s\n", fail.detail);
-        return -1;
-    }
-    *state = f;
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    struct fixture *f = *state;
-    library_destroy(f->lib);
-    free(f->problems);
-    free(f);
-    return 0;
-}
-
-static struct api_case *parse(struct fixture *f, const char *json)
-{
-    struct api_case *c = NULL;
-    f->problems->count = f->problems->total = 0;
-    const enum status st = api_case_parse(f->lib, json, strlen(json), "", &c, f->problems);
-    assert_int_equal(st == ST_OK, c != NULL);
-    assert_int_equal(st == ST_OK, f->problems->total == 0);
-    return c;
-}
-
-static struct api_case *parse_good(struct fixture *f, const char *json)
-{
-    struct api_case *c = parse(f, json);
-    if (c == NULL) {
-        fail_msg("%s %s: %s", f->problems->item[0].pointer, f->problems->item[0].code,
-                 f->problems->item[0].detail);
-    }
-    return c;
-}
 
 /* The smallest simulation, with one place for additions to each object. */
 #define SECTION                                                                                    \
@@ -496,5 +441,5 @@ int main(void)
         cmocka_unit_test(test_bad_definitions),
         cmocka_unit_test(test_duplicate_definition),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, parsing_setup, parsing_teardown);
 }

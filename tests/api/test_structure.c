@@ -1,61 +1,10 @@
 /* Sections, stations, masses and loads of a case: what they become, and every way to be wrong. */
-#include "api/case.h"
 #include "core/num.h"
+#include "tests/api/parsing.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
-
-#include "tests/support/near.h"
-
-struct fixture {
-    struct library *lib;
-    struct failure_list *problems;
-};
-
-static int setup(void **state)
-{
-    struct failure fail;
-    struct fixture *f = calloc(1, sizeof *f);
-    f->problems = calloc(1, sizeof *f->problems);
-    *state = f;
-    return library_create_builtin(&f->lib, &fail) == ST_OK ? 0 : -1;
-}
-
-static int teardown(void **state)
-{
-    struct fixture *f = *state;
-    library_destroy(f->lib);
-    free(f->problems);
-    free(f);
-    return 0;
-}
-
-static struct api_case *parse(struct fixture *f, const char *json)
-{
-    struct api_case *c = NULL;
-    f->problems->count = f->problems->total = 0;
-    const enum status st = api_case_parse(f->lib, json, strlen(json), "", &c, f->problems);
-    assert_int_equal(st == ST_OK, c != NULL);
-    assert_int_equal(st == ST_OK, f->problems->total == 0);
-    return c;
-}
-
-static struct api_case *parse_good(struct fixture *f, const char *json)
-{
-    struct api_case *c = parse(f, json);
-    if (c == NULL) {
-        fail_msg("%s %s: %s", f->problems->item[0].pointer, f->problems->item[0].code,
-                 f->problems->item[0].detail);
-    }
-    return c;
-}
 
 #define PLY "{\"material\":\"aluminium\",\"thickness_m\":0.001}"
 #define STRIP "{\"type\":\"strip\",\"chord_m\":0.1,\"layup\":[" PLY "]}"
@@ -349,5 +298,5 @@ int main(void)
         cmocka_unit_test(test_identity_sees_every_layup),
         cmocka_unit_test(test_bad_cases),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, parsing_setup, parsing_teardown);
 }

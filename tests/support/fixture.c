@@ -179,3 +179,13 @@ double fixture_normal(uint64_t *state)
     const double u = 1.0 - fixture_uniform(state), v = fixture_uniform(state);
     return sqrt(-2.0 * log(u)) * cos(2.0 * NUM_PI * v);
 }
+
+void fixture_multiply(int n, const double *a, const double *x, double *y)
+{
+    for (int i = 0; i < n; i++) {
+        y[i] = 0.0;
+        for (int j = 0; j < n; j++) {
+            y[i] += a[num_at(i, j, n)] * x[j];
+        }
+    }
+}

@@ -37,4 +37,7 @@ struct network_def fixture_network(int hidden, double size, uint64_t seed);
 double fixture_uniform(uint64_t *state);
 double fixture_normal(uint64_t *state);
 
+/* y (n) = a (n x n, column-major) x (n). */
+void fixture_multiply(int n, const double *a, const double *x, double *y);
+
 #endif
