@@ -68,6 +68,7 @@ static const struct field ply_fields[] = {
          .kind = FIELD_INTEGER,                                                                    \
          .offset = AT(shape.contour_elements),                                                     \
          .range = &contour_elements},                                                              \
+        NUMBER("mid_chord_m", mid_chord, .required = false),                                       \
         NUMBER("twist_deg", shape.turn, .unit = FIELD_DEGREE, .range = &angle)
 
 static bool has_no_chord(const void *base)

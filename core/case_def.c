@@ -63,6 +63,11 @@ double section_def_height(const struct section_def *s)
     return shape_extent(&s->shape, 1);
 }
 
+double section_def_mid_chord(const struct section_def *s)
+{
+    return s->mid_chord;
+}
+
 const struct section_def *beam_def_root(const struct beam_def *b)
 {
     return b->n_station > 0 ? &b->station[0].section : &b->section;
@@ -166,18 +171,21 @@ static void check_section(const struct section_def *section, const char *pointer
                           struct failure_list *out)
 {
     const struct shape *s = &section->shape;
-    char width[160], height[160], elements[160], layup[160];
+    char width[160], height[160], elements[160], layup[160], mid_chord[160];
     const bool strip = s->type == SECTION_STRIP;
     (void)snprintf(width, sizeof width, "%s/%s", pointer, strip ? "chord_m" : "width_m");
     (void)snprintf(height, sizeof height, "%s/height_m", pointer);
     (void)snprintf(elements, sizeof elements, "%s/contour_elements", pointer);
+    (void)snprintf(mid_chord, sizeof mid_chord, "%s/mid_chord_m", pointer);
     const struct range size[] = {{width, s->width, 0.0, INFINITY, true, false},
                                  {height, s->height, 0.0, INFINITY, true, false}};
     const struct range mesh = {elements, s->contour_elements, 1, LIMIT_CONTOUR_ELEMENTS, false,
                                false};
+    const struct range place = {mid_chord, section->mid_chord, -HUGE_VAL, HUGE_VAL, true, true};
     const int before = out->total;
     check_ranges(strip ? 1 : (s->type == SECTION_BOX ? 2 : 0), size, out);
     check_range(&mesh, out);
+    check_range(&place, out);
     for (int l = 0; l < s->n_layup; l++) {
         layup_pointer(s, pointer, l, layup, sizeof layup);
         check_layup(&s->layup[l], layup, out);

@@ -47,6 +47,7 @@ enum channel {
 struct section_def {
     struct shape shape;     /* strip: shape.width is its chord; shape.turn is the twist offset */
     double chord;           /* aerodynamic chord of a box or contour [m], 0: its extent along x */
+    double mid_chord;       /* x of mid-chord from the origin, before the turn [m], default 0 */
     enum shear_model shear; /* of the whole beam: that of its first section counts */
 };
 
@@ -56,6 +57,8 @@ void section_def_defaults(enum section_type type, struct section_def *out);
 /* Aerodynamic chord and overall height (strip: thickness) of a section [m]. */
 double section_def_chord(const struct section_def *s);
 double section_def_height(const struct section_def *s);
+/* Mid-chord from the section's origin, along the chord towards the leading edge [m]. */
+double section_def_mid_chord(const struct section_def *s);
 
 struct station_def {
     double z; /* [m]; two stations at one z make a jump */

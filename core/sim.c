@@ -116,7 +116,7 @@ static void report_modes(const struct model *m, struct sim_result *out)
     for (int j = 0; j < out->n_mode; j++) {
         struct mode_result *r = &out->mode[j];
         const double *shape = m->modes.shape + (size_t)j * (size_t)m->modes.n_dof;
-        const struct beam_motion tip = modes_tip(&m->beam, &m->modes, j);
+        const struct beam_motion tip = model_motion_at(m, shape, m->beam.length);
         const double chord = section_def_chord(beam_def_root(&m->def.beam));
         const double largest = fmax(fmax(fabs(tip.u), fabs(tip.v)), fabs(tip.theta) * chord);
         r->frequency_hz = m->modes.omega[j] / (2.0 * NUM_PI);
@@ -125,7 +125,7 @@ static void report_modes(const struct model *m, struct sim_result *out)
         r->modal_mass = 1.0 / num_sq(largest);
         for (int i = 0; i < MODE_SAMPLES; i++) {
             const struct beam_motion at =
-                beam_motion_at(&m->beam, shape, m->beam.length * i / (MODE_SAMPLES - 1));
+                model_motion_at(m, shape, m->beam.length * i / (MODE_SAMPLES - 1));
             r->plunge[i] = at.v;
             r->chordwise[i] = at.u;
             r->twist[i] = at.theta;

@@ -118,10 +118,10 @@ enum status statics_run(const struct model *m, struct static_result *out)
     if (st != ST_OK) {
         goto out;
     }
-    r.tip = beam_motion_at(b, x, b->length);
+    r.tip = model_motion_at(m, x, b->length);
     for (int i = 0; i < STATIC_SAMPLES; i++) {
         const double z = b->length * i / (STATIC_SAMPLES - 1);
-        r.span[i] = (struct static_sample){.z = z, .motion = beam_motion_at(b, x, z)};
+        r.span[i] = (struct static_sample){.z = z, .motion = model_motion_at(m, x, z)};
     }
     for (int d = 0; d < 3; d++) {
         r.reaction_force[d] = -force[d];

@@ -50,6 +50,32 @@ double model_chord_at(const struct beam_def *b, double z)
     return inner + t * (section_def_chord(&b->station[i + 1].section) - inner);
 }
 
+/* Mid-chord of the section at z from the beam's axis; it turns with the section. */
+static struct shape_point mid_chord_at(const struct beam_def *b, double z)
+{
+    const struct section_def *inner = &b->section, *outer = &b->section;
+    double t = 0.0;
+    if (b->n_station > 0) {
+        const int i = stations_around(b, z, &t);
+        inner = &b->station[i].section;
+        outer = &b->station[i + 1].section;
+    }
+    const double from = section_def_mid_chord(inner);
+    const double x = from + t * (section_def_mid_chord(outer) - from);
+    const double turn = inner->shape.turn + t * (outer->shape.turn - inner->shape.turn);
+    return (struct shape_point){x * cos(turn), x * sin(turn)};
+}
+
+struct beam_motion model_motion_at(const struct model *m, const double *x, double z)
+{
+    struct beam_motion at = beam_motion_at(&m->beam, x, z);
+    const struct shape_point p = mid_chord_at(&m->def.beam, z);
+    at.u -= p.y * at.theta;
+    at.v += p.x * at.theta;
+    at.w += p.y * at.phi - p.x * at.psi;
+    return at;
+}
+
 static enum status section_of(const struct shape *shape, struct section *out)
 {
     struct laminate *laminate = malloc(LIMIT_WALLS * sizeof *laminate);
@@ -237,10 +263,9 @@ static enum status build_transfer(struct model *m)
         m->omega2[j] = num_sq(m->modes.omega[j]);
         m->damping[j] = 2.0 * damping_ratio(&m->def.solver, j) * m->modes.omega[j];
         m->gravity[j] = gravity_load(&m->beam, m->def.beam.gravity, shape);
-        m->tip[j] = modes_tip(&m->beam, &m->modes, j);
+        m->tip[j] = model_motion_at(m, shape, m->def.beam.length);
         for (int i = 0; i < m->n_station; i++) {
-            const struct beam_motion at =
-                beam_motion_at(&m->beam, shape, (i + 0.5) * m->station_length);
+            const struct beam_motion at = model_motion_at(m, shape, (i + 0.5) * m->station_length);
             const ptrdiff_t k = num_at(i, j, m->n_station);
             m->station_u[k] = at.u;
             m->station_v[k] = at.v;

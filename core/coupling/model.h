@@ -32,12 +32,12 @@ struct model {
     double *omega2;          /* squared natural frequencies (n_mode) */
     double *damping;         /* 2 zeta omega               (n_mode) */
     double *gravity;         /* modal load of gravity      (n_mode) */
-    /* Mode shapes at the stations, station fastest. Loads use the same matrices, so the power of
-     * the loads on the stations is that on the modes. */
+    /* Mode shapes at the stations, of mid-chord, station fastest. Loads use the same matrices, so
+     * the power of the loads on the stations is that on the modes. */
     double *station_u;       /* (n_station x n_mode) */
     double *station_v;       /* (n_station x n_mode) */
     double *station_theta;   /* (n_station x n_mode) */
-    struct beam_motion *tip; /* (n_mode) */
+    struct beam_motion *tip; /* of mid-chord (n_mode) */
     /* Only with apparent mass: the modes marched in are those in still air. */
     double *to_vacuo; /* amplitudes of the modes in vacuo per unit of these (n_mode x n_mode) */
     double *damping_coupling; /* structural damping off the diagonal (n_mode x n_mode) */
@@ -59,5 +59,8 @@ void model_shape_at(const struct beam_def *b, double z, struct shape *out);
 const struct section_def *model_section_at(const struct beam_def *b, double z);
 /* Aerodynamic chord at z [m]. */
 double model_chord_at(const struct beam_def *b, double z);
+/* Motion of mid-chord at z [m] for freedoms x of the beam (n_dof): what the stream sees and results
+ * report. The beam's own motion is that of its axis, the origin of the sections. */
+struct beam_motion model_motion_at(const struct model *m, const double *x, double z);
 
 #endif
