@@ -40,7 +40,7 @@ void result_matrix_members(struct json_out *out, const struct section_result *s)
     json_key_string(
         out, "reference_axis",
         "the z axis of the case: the origin of x (towards the leading edge) and y (up); "
-        "mid-chord of a strip, centre of a box");
+        "mid-chord of a strip and centre of a box, the elastic axis of properties");
 }
 
 static void write_point(struct json_out *out, const char *key, double x, double y)

@@ -54,7 +54,7 @@ static void write_first_failure(struct json_out *out, const struct result_view *
     json_key_number(out, "reserve", s->reserve_min);
     json_key_number(out, "z_m", at->z);
     json_key_string(out, "layup",
-                    layup_name(&model_section_at(&v->def->beam, at->z)->shape, ply->layup));
+                    layup_name(&beam_def_given_at(&v->def->beam, at->z)->shape, ply->layup));
     json_key_integer(out, "ply", ply->ply);
     json_object_end(out);
 }
@@ -127,7 +127,7 @@ static void write_stress(struct json_out *out, const struct result_view *v)
     json_key(out, "stress");
     json_array_begin(out);
     for (int i = 0; i < s->n_stress; i++) {
-        const struct shape *shape = &model_section_at(&v->def->beam, s->stress[i].z)->shape;
+        const struct shape *shape = &beam_def_given_at(&v->def->beam, s->stress[i].z)->shape;
         json_object_begin(out);
         json_key_number(out, "z_m", s->stress[i].z);
         json_key(out, "strains");

@@ -8,18 +8,27 @@
 #include <string.h>
 
 static const struct field_range positive = {.min = 0.0, .max = INFINITY, .above_min = true};
+static const struct field_range not_negative = {.min = 0.0, .max = INFINITY};
+static const struct field_range on_chord = {.min = 0.0, .max = 1.0};
 static const struct field_range contour_elements = {.min = 1, .max = LIMIT_CONTOUR_ELEMENTS};
 static const struct field_range angle = {.min = -180.0, .max = 180.0};
 static const struct field_range point_index = {.min = 0, .max = LIMIT_POINTS - 1};
 static const struct field_range cells = {.min = 0, .max = LIMIT_WALLS};
 
 /* By the enums of core. */
-const char *const section_type_names[] = {
-    [SECTION_STRIP] = "strip", [SECTION_BOX] = "box", [SECTION_CONTOUR] = "contour", NULL};
+const char *const section_type_names[] = {[SECTION_STRIP] = "strip",
+                                          [SECTION_BOX] = "box",
+                                          [SECTION_CONTOUR] = "contour",
+                                          [SECTION_PROPERTIES] = "properties",
+                                          NULL};
 static const char *const chordwise_names[] = {
     [CHORDWISE_FREE] = "free", [CHORDWISE_RIGID] = "rigid", NULL};
 static const char *const wall_shear_names[] = {
     [WALL_SHEAR_RIGID] = "rigid", [WALL_SHEAR_FLEXIBLE] = "flexible", NULL};
+static const char *const inertia_axis_names[] = {[INERTIA_ELASTIC_AXIS] = "elastic_axis",
+                                                 [INERTIA_MASS_CENTRE] = "mass_centre",
+                                                 [INERTIA_MID_CHORD] = "mid_chord",
+                                                 NULL};
 static const char *const shear_names[] = {
     [SHEAR_CONDENSED] = "condensed", [SHEAR_RETAINED] = "retained", NULL};
 
@@ -300,8 +309,29 @@ static const struct field contour_fields[] = {
     {0},
 };
 
-const struct field *const section_variants[] = {
-    [SECTION_STRIP] = strip_fields, [SECTION_BOX] = box_fields, [SECTION_CONTOUR] = contour_fields};
+static const struct field properties_fields[] = {
+    TYPE,
+    NUMBER("chord_m", properties.chord, .required = true, .range = &positive),
+    NUMBER("ei_flap_n_m2", properties.ei_flap, .required = true, .range = &positive),
+    NUMBER("ei_lag_n_m2", properties.ei_lag, .range = &positive),
+    NUMBER("gj_n_m2", properties.gj, .required = true, .range = &positive),
+    NUMBER("ea_n", properties.ea, .range = &positive),
+    NUMBER("bend_twist_n_m2", properties.bend_twist, .required = false),
+    NUMBER("ei_warping_n_m4", properties.ei_warping, .range = &not_negative),
+    NUMBER("mass_kg_m", properties.mass, .required = true, .range = &positive),
+    NUMBER("torsion_inertia_kg_m", properties.torsion_inertia, .required = true,
+           .range = &positive),
+    CHOICE("torsion_inertia_about", properties.inertia_axis, inertia_axis_names, .required = false),
+    NUMBER("elastic_axis_chord", properties.elastic_axis, .range = &on_chord),
+    NUMBER("mass_axis_chord", properties.mass_axis, .range = &on_chord),
+    CHOICE("shear", shear, shear_names, .required = false),
+    {0},
+};
+
+const struct field *const section_variants[] = {[SECTION_STRIP] = strip_fields,
+                                                [SECTION_BOX] = box_fields,
+                                                [SECTION_CONTOUR] = contour_fields,
+                                                [SECTION_PROPERTIES] = properties_fields};
 
 void section_choose(void *section, int type)
 {
@@ -311,6 +341,9 @@ void section_choose(void *section, int type)
 void section_finish(struct reader *r, const struct cJSON *json, void *section)
 {
     struct shape *s = &((struct section_def *)section)->shape;
+    if (s->type == SECTION_PROPERTIES) {
+        properties_complete(&((struct section_def *)section)->properties);
+    }
     if (s->type != SECTION_BOX) {
         return;
     }

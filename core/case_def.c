@@ -1,21 +1,10 @@
 #include "core/case_def.h"
 
 #include "core/num.h"
+#include "core/range.h"
 
 #include <stdio.h>
 #include <string.h>
-
-void section_def_defaults(enum section_type type, struct section_def *out)
-{
-    *out = (struct section_def){
-        .shape = {.type = type,
-                  .n_layup = type == SECTION_CONTOUR ? 0 : 1,
-                  .cells = -1,
-                  .chordwise = CHORDWISE_FREE,
-                  .contour_elements = type == SECTION_STRIP ? 16 : 8},
-        .shear = SHEAR_CONDENSED,
-    };
-}
 
 void case_def_defaults(struct case_def *def)
 {
@@ -47,32 +36,6 @@ void case_def_defaults(struct case_def *def)
     section_def_defaults(SECTION_STRIP, &def->beam.section);
 }
 
-double section_def_chord(const struct section_def *s)
-{
-    if (s->shape.type == SECTION_STRIP) {
-        return s->shape.width;
-    }
-    if (s->chord > 0.0) {
-        return s->chord;
-    }
-    return shape_extent(&s->shape, 0);
-}
-
-double section_def_height(const struct section_def *s)
-{
-    return shape_extent(&s->shape, 1);
-}
-
-double section_def_mid_chord(const struct section_def *s)
-{
-    return s->mid_chord;
-}
-
-const struct section_def *beam_def_root(const struct beam_def *b)
-{
-    return b->n_station > 0 ? &b->station[0].section : &b->section;
-}
-
 int case_def_channel_columns(const struct case_def *def, enum channel channel)
 {
     if (channel == CHANNEL_MODAL_AMPLITUDE || channel == CHANNEL_MODAL_VELOCITY) {
@@ -97,147 +60,6 @@ int case_def_samples(const struct case_def *def)
     return case_def_steps(def) / def->output.sample_every + 1;
 }
 
-/* One rule over a number: lo < or <= value < or <= hi. */
-struct range {
-    const char *pointer;
-    double value;
-    double lo, hi;
-    bool open_lo, open_hi; /* the bound itself is not allowed */
-};
-
-static void check_range(const struct range *r, struct failure_list *out)
-{
-    const bool low = r->open_lo ? r->value > r->lo : r->value >= r->lo;
-    const bool high = r->open_hi ? r->value < r->hi : r->value <= r->hi;
-    if (isfinite(r->value) && low && high) {
-        return;
-    }
-    char expected[96], got[64];
-    if (isfinite(r->hi)) {
-        (void)snprintf(expected, sizeof expected, "a number %s %.10g and %s %.10g",
-                       r->open_lo ? ">" : ">=", r->lo, r->open_hi ? "<" : "<=", r->hi);
-    } else {
-        (void)snprintf(expected, sizeof expected, "a finite number %s %.10g",
-                       r->open_lo ? ">" : ">=", r->lo);
-    }
-    (void)snprintf(got, sizeof got, "%.10g", r->value);
-    failure_set(failure_add(out), ST_INVALID, r->pointer, "out_of_range", expected, got,
-                "the value is outside its range");
-}
-
-static void check_ranges(size_t n, const struct range *r, struct failure_list *out)
-{
-    for (size_t i = 0; i < n; i++) {
-        check_range(&r[i], out);
-    }
-}
-
-#define CHECK_RANGES(table, out) check_ranges(sizeof(table) / sizeof((table)[0]), table, out)
-
-/* Plies of a layup at `pointer` (of the list of plies). */
-static void check_layup(const struct layup *l, const char *pointer, struct failure_list *out)
-{
-    const struct range count = {pointer, l->n_ply, 1, LIMIT_PLIES, false, false};
-    check_range(&count, out);
-    for (int i = 0; i < l->n_ply && i < LIMIT_PLIES; i++) {
-        char angle[160], thickness[160], material[160];
-        (void)snprintf(angle, sizeof angle, "%.120s/%d/angle_deg", pointer, i);
-        (void)snprintf(thickness, sizeof thickness, "%.120s/%d/thickness_m", pointer, i);
-        (void)snprintf(material, sizeof material, "%.120s/%d/material", pointer, i);
-        const struct range ply[] = {
-            {angle, num_deg(l->ply[i].angle), -180.0, 180.0, false, false},
-            {thickness, l->ply[i].thickness, 0.0, INFINITY, true, false},
-        };
-        CHECK_RANGES(ply, out);
-        material_check(&l->ply[i].material, material, out);
-    }
-}
-
-/* JSON pointer of layup l of a section at `pointer`. */
-static void layup_pointer(const struct shape *s, const char *pointer, int l, char *text,
-                          size_t size)
-{
-    static const char *const box[BOX_WALLS] = {"front", "top", "rear", "bottom"};
-    if (s->type == SECTION_CONTOUR) {
-        (void)snprintf(text, size, "%.100s/layups/%d/layup", pointer, l);
-    } else if (s->n_layup == BOX_WALLS) {
-        (void)snprintf(text, size, "%.100s/walls/%s", pointer, box[l]);
-    } else {
-        (void)snprintf(text, size, "%.100s/layup", pointer);
-    }
-}
-
-static void check_section(const struct section_def *section, const char *pointer,
-                          struct failure_list *out)
-{
-    const struct shape *s = &section->shape;
-    char width[160], height[160], elements[160], layup[160], mid_chord[160];
-    const bool strip = s->type == SECTION_STRIP;
-    (void)snprintf(width, sizeof width, "%s/%s", pointer, strip ? "chord_m" : "width_m");
-    (void)snprintf(height, sizeof height, "%s/height_m", pointer);
-    (void)snprintf(elements, sizeof elements, "%s/contour_elements", pointer);
-    (void)snprintf(mid_chord, sizeof mid_chord, "%s/mid_chord_m", pointer);
-    const struct range size[] = {{width, s->width, 0.0, INFINITY, true, false},
-                                 {height, s->height, 0.0, INFINITY, true, false}};
-    const struct range mesh = {elements, s->contour_elements, 1, LIMIT_CONTOUR_ELEMENTS, false,
-                               false};
-    const struct range place = {mid_chord, section->mid_chord, -HUGE_VAL, HUGE_VAL, true, true};
-    const int before = out->total;
-    check_ranges(strip ? 1 : (s->type == SECTION_BOX ? 2 : 0), size, out);
-    check_range(&mesh, out);
-    check_range(&place, out);
-    for (int l = 0; l < s->n_layup; l++) {
-        layup_pointer(s, pointer, l, layup, sizeof layup);
-        check_layup(&s->layup[l], layup, out);
-    }
-    const int walls = strip ? 1 : (s->type == SECTION_BOX ? BOX_WALLS : s->n_wall);
-    if (out->total == before && walls * s->contour_elements > LIMIT_SECTION_ELEMENTS) {
-        char expected[64], got[64];
-        (void)snprintf(expected, sizeof expected, "at most %d", LIMIT_SECTION_ELEMENTS / walls);
-        (void)snprintf(got, sizeof got, "%d", s->contour_elements);
-        failure_set(failure_add(out), ST_LIMIT, elements, "too_many_elements", expected, got,
-                    "%d walls would have more than %d contour elements", walls,
-                    LIMIT_SECTION_ELEMENTS);
-    }
-    if (out->total == before) {
-        shape_check(s, pointer, out);
-    }
-}
-
-/* Stations ascend from the root to the tip, at most two at one place between them, and neighbours
- * apart from each other can be blended. */
-static void check_stations(const struct beam_def *b, struct failure_list *out)
-{
-    char pointer[160];
-    for (int i = 0; i < b->n_station; i++) {
-        (void)snprintf(pointer, sizeof pointer, "/beam/stations/%d/section", i);
-        check_section(&b->station[i].section, pointer, out);
-        (void)snprintf(pointer, sizeof pointer, "/beam/stations/%d/z_m", i);
-        const double z = b->station[i].z, last = i > 0 ? b->station[i - 1].z : 0.0;
-        const bool placed = isfinite(z) && (i == 0 ? z == 0.0 : z >= last) &&
-                            (i < b->n_station - 1 || fabs(z - b->length) <= 1e-9 * b->length) &&
-                            !(i > 1 && z <= b->station[i - 2].z) &&
-                            !(i > 0 && z == last && (z == 0.0 || i == b->n_station - 1));
-        if (!placed) {
-            char got[32];
-            (void)snprintf(got, sizeof got, "%.10g", z);
-            failure_set(failure_add(out), ST_INVALID, pointer, "misplaced_station",
-                        "ascending from 0 to beam.length_m, at most two at one place between", got,
-                        "the station is out of place");
-        } else if (i > 0 && z > last &&
-                   !shape_same(&b->station[i - 1].section.shape, &b->station[i].section.shape)) {
-            failure_set(failure_add(out), ST_INVALID, pointer, "stations_differ",
-                        "the same type, walls, layups and materials as the station before", NULL,
-                        "the sections cannot be blended; put two stations at one place for a jump");
-        }
-    }
-    if (b->n_station == 1) {
-        failure_set(failure_add(out), ST_INVALID, "/beam/stations", "too_short",
-                    "at least two stations, or `section` for the whole beam", "1 station",
-                    "one station does not make a beam");
-    }
-}
-
 static void check_masses(const struct beam_def *b, struct failure_list *out)
 {
     for (int i = 0; i < b->n_mass; i++) {
@@ -248,12 +70,12 @@ static void check_masses(const struct beam_def *b, struct failure_list *out)
         (void)snprintf(mass, sizeof mass, "/beam/masses/%d/mass_kg", i);
         const struct range rule[] = {{z, m->z, 0.0, b->length, false, false},
                                      {mass, m->mass, 0.0, INFINITY, false, false}};
-        CHECK_RANGES(rule, out);
+        RANGE_CHECK(rule, out);
         for (int k = 0; k < 3; k++) {
             (void)snprintf(inertia[k], sizeof inertia[k], "/beam/masses/%d/inertia_%c_kg_m2", i,
                            axis[k]);
             const struct range r = {inertia[k], m->inertia[k], 0.0, INFINITY, false, false};
-            check_range(&r, out);
+            range_check(1, &r, out);
         }
     }
 }
@@ -265,7 +87,7 @@ static void check_beam(const struct case_def *def, struct failure_list *out)
         {"/beam/elements", def->beam.elements, 1, LIMIT_ELEMENTS, false, false},
         {"/solver/modes", def->solver.modes, 1, LIMIT_MODES, false, false},
     };
-    CHECK_RANGES(rule, out);
+    RANGE_CHECK(rule, out);
     check_masses(&def->beam, out);
     const int freedoms = BEAM_NODE_FREEDOMS * def->beam.elements;
     if (def->kind != CASE_STATIC && def->solver.modes > freedoms && def->beam.elements >= 1 &&
@@ -278,6 +100,17 @@ static void check_beam(const struct case_def *def, struct failure_list *out)
     }
 }
 
+/* Stresses are those of walls. */
+static void check_has_walls(const struct case_def *def, int i, const char *pointer,
+                            struct failure_list *out)
+{
+    if (beam_def_given_at(&def->beam, def->output.stress[i])->shape.type == SECTION_PROPERTIES) {
+        failure_set(failure_add(out), ST_INVALID, pointer, "no_walls",
+                    "a place whose section is a strip, box or contour", NULL,
+                    "a section given by properties has no walls and no plies to be stressed");
+    }
+}
+
 /* Loads and stress positions lie on the beam, and there is something to carry. */
 static void check_static(const struct case_def *def, struct failure_list *out)
 {
@@ -287,19 +120,20 @@ static void check_static(const struct case_def *def, struct failure_list *out)
     for (int i = 0; i < l->n_point; i++) {
         (void)snprintf(a, sizeof a, "/loads/points/%d/z_m", i);
         const struct range r = {a, l->point[i].z, 0.0, length, false, false};
-        check_range(&r, out);
+        range_check(1, &r, out);
     }
     for (int i = 0; i < l->n_line; i++) {
         (void)snprintf(a, sizeof a, "/loads/lines/%d/from_m", i);
         (void)snprintf(b, sizeof b, "/loads/lines/%d/to_m", i);
         const struct range r[] = {{a, l->line[i].from, 0.0, length, false, false},
                                   {b, l->line[i].to, l->line[i].from, length, true, false}};
-        CHECK_RANGES(r, out);
+        RANGE_CHECK(r, out);
     }
     for (int i = 0; i < def->output.n_stress; i++) {
         (void)snprintf(a, sizeof a, "/output/stress_at_m/%d", i);
         const struct range r = {a, def->output.stress[i], 0.0, length, false, false};
-        check_range(&r, out);
+        range_check(1, &r, out);
+        check_has_walls(def, i, a, out);
     }
     const double *g = def->beam.gravity;
     if (l->n_point + l->n_line == 0 && g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0) {
@@ -317,7 +151,7 @@ static void check_flow(const struct case_def *def, struct failure_list *out)
         {"/flow/kinematic_viscosity_m2_s", f->kinematic_viscosity, 0.0, INFINITY, true, false},
         {"/flow/incidence_deg", num_deg(f->incidence), -90.0, 90.0, false, false},
     };
-    CHECK_RANGES(rule, out);
+    RANGE_CHECK(rule, out);
 }
 
 static void check_aero(const struct case_def *def, struct failure_list *out)
@@ -328,7 +162,7 @@ static void check_aero(const struct case_def *def, struct failure_list *out)
         {"/aerodynamics/lifting_line/iterations_max", a->iterations_max, 1, 1000, false, false},
     };
     if (a->lifting_line) {
-        CHECK_RANGES(rule, out);
+        RANGE_CHECK(rule, out);
     }
     if (a->lifting_line && a->walls == WALLS_ROOT_AND_FAR && !(a->width > def->beam.length)) {
         char got[32];
@@ -394,7 +228,7 @@ static void check_solver(const struct case_def *def, struct failure_list *out)
         {"/output/channels", o->n_channel, 0, CHANNEL_COUNT, false, false},
     };
     const int before = out->total;
-    CHECK_RANGES(rule, out);
+    RANGE_CHECK(rule, out);
     if (s->start == START_AMPLITUDES && s->n_amplitude > s->modes) {
         char got[32];
         (void)snprintf(got, sizeof got, "%d values", s->n_amplitude);
@@ -405,7 +239,7 @@ static void check_solver(const struct case_def *def, struct failure_list *out)
         char pointer[64];
         (void)snprintf(pointer, sizeof pointer, "/solver/modal_damping_ratios/%d", i);
         const struct range r = {pointer, s->mode_damping[i], 0.0, 1.0, false, true};
-        check_range(&r, out);
+        range_check(1, &r, out);
     }
     for (int i = 0; i < s->n_amplitude && i < LIMIT_MODES; i++) {
         if (!isfinite(s->amplitude[i]) || !isfinite(s->velocity[i])) {
@@ -420,11 +254,7 @@ static void check_solver(const struct case_def *def, struct failure_list *out)
 
 void case_def_check(const struct case_def *def, struct failure_list *out)
 {
-    if (def->beam.n_station > 0) {
-        check_stations(&def->beam, out);
-    } else {
-        check_section(&def->beam.section, "/beam/section", out);
-    }
+    beam_def_check_sections(&def->beam, out);
     if (def->kind != CASE_SECTION) {
         check_beam(def, out);
     }

@@ -9,8 +9,7 @@
 #include "core/aero/lifting_line.h"
 #include "core/aero/network.h"
 #include "core/aero/polar.h"
-#include "core/structure/beam.h"
-#include "core/structure/shape.h"
+#include "core/section_def.h"
 
 #include <stdbool.h>
 
@@ -43,42 +42,6 @@ enum channel {
     CHANNEL_STATION_CM,
     CHANNEL_COUNT
 };
-
-struct section_def {
-    struct shape shape;     /* strip: shape.width is its chord; shape.turn is the twist offset */
-    double chord;           /* aerodynamic chord of a box or contour [m], 0: its extent along x */
-    double mid_chord;       /* x of mid-chord from the origin, before the turn [m], default 0 */
-    enum shear_model shear; /* of the whole beam: that of its first section counts */
-};
-
-/* Fills the defaults of a section of this type. */
-void section_def_defaults(enum section_type type, struct section_def *out);
-
-/* Aerodynamic chord and overall height (strip: thickness) of a section [m]. */
-double section_def_chord(const struct section_def *s);
-double section_def_height(const struct section_def *s);
-/* Mid-chord from the section's origin, along the chord towards the leading edge [m]. */
-double section_def_mid_chord(const struct section_def *s);
-
-struct station_def {
-    double z; /* [m]; two stations at one z make a jump */
-    struct section_def section;
-};
-
-struct beam_def {
-    double length;                  /* [m] */
-    int elements;                   /* default 16 */
-    enum root_warping root_warping; /* does the clamp hold the warping? default restrained */
-    struct section_def section;     /* of the whole beam when there are no stations */
-    int n_station;
-    const struct station_def *station; /* borrowed; linear in between, first at 0, last at length */
-    int n_mass;
-    struct beam_mass mass[LIMIT_MASSES];
-    double gravity[3]; /* acceleration along x, y, z [m/s^2], default none */
-};
-
-/* First section of the beam: of its root. */
-const struct section_def *beam_def_root(const struct beam_def *b);
 
 struct point_load_def {
     double z; /* [m] */

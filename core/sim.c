@@ -86,7 +86,6 @@ static enum status report_section(const struct model *m, struct section_result *
     out->mass_per_length = m->section.mass[num_at(M_U, M_U, SECTION_MASS)];
     out->thickness = m->thickness;
     out->centres = m->centres;
-    out->cells = shape_cells(&beam_def_root(&m->def.beam)->shape);
     out->ei_flap = s->ei_flap;
     out->ei_lag = s->ei_lag;
     out->gj = s->gj;
@@ -94,7 +93,12 @@ static enum status report_section(const struct model *m, struct section_result *
     /* Upward load bends up (v'' > 0, phi' < 0); with no torque theta' = bend_twist v''/GJ. */
     const double relative = s->bend_twist / sqrt(s->ei_flap * s->gj);
     out->wash = fabs(relative) < 1e-9 ? WASH_NONE : (relative > 0.0 ? WASH_IN : WASH_OUT);
-    return warping_line(&beam_def_root(&m->def.beam)->shape, out->warping, &out->n_warping);
+    const struct shape *shape = &beam_def_root(&m->def.beam)->shape;
+    if (shape->type == SECTION_PROPERTIES) {
+        return ST_OK; /* no walls */
+    }
+    out->cells = shape_cells(shape);
+    return warping_line(shape, out->warping, &out->n_warping);
 }
 
 static enum mode_label label_of(const double share[MODE_SHARES])
@@ -211,7 +215,8 @@ static enum status report_damping(const struct sim *s, struct sim_result *out)
     return st;
 }
 
-/* E* = E_l (h/c)^3 / (rho V^2/2) with the stiffest ply, and V c/nu, both of the root section. */
+/* E* = E_l (h/c)^3 / (rho V^2/2) with the stiffest ply, and V c/nu, both of the root section.
+ * Without plies there is no E*: its thickness is NaN. */
 static void report_similarity(const struct model *m, struct sim_result *out)
 {
     const struct section_def *s = beam_def_root(&m->def.beam);

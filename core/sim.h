@@ -35,7 +35,7 @@ struct section_result {
     double stiffness_condensed[SECTION_CLASSICAL * SECTION_CLASSICAL];
     double mass[SECTION_MASS * SECTION_MASS];
     double mass_per_length; /* [kg/m] */
-    double thickness;       /* overall: of the wall of a strip, else the height [m] */
+    double thickness;       /* overall: of the wall of a strip, else the height [m]; may be NaN */
     struct centres centres;
     int cells; /* closed ones */
     int n_warping;
@@ -71,7 +71,7 @@ struct sim_result {
     char verdict_reason[VERDICT_REASON]; /* the numbers that decided, in one sentence */
     enum stop_reason stop;
     double stop_time; /* [s] */
-    double e_star;    /* E_l (h/c)^3 / (rho V^2 / 2), E_l of the stiffest ply */
+    double e_star;    /* E_l (h/c)^3 / (rho V^2 / 2), E_l of the stiffest ply; NaN without */
     double reynolds;
     struct section_result section;
     struct static_result statics; /* CASE_STATIC */

@@ -65,18 +65,19 @@ static enum status recover_stress(const struct model *m, const double *x, double
                                   struct stress_result *out)
 {
     enum { STATES = LIMIT_LAYUPS * LIMIT_PLIES };
-    struct shape *shape = malloc(sizeof *shape);
+    struct section_def *section = malloc(sizeof *section);
     struct ply_state *ply = malloc(STATES * sizeof *ply);
-    if (shape == NULL || ply == NULL) {
-        free(shape);
+    if (section == NULL || ply == NULL) {
+        free(section);
         free(ply);
         return ST_NO_MEMORY;
     }
     out->z = z;
     beam_strain_at(&m->beam, x, z, out->strain);
-    model_shape_at(&m->def.beam, z, shape);
-    const enum status st = static_ply_states(shape, m->beam.shear, out->strain, ply, &out->n_ply);
-    free(shape);
+    beam_def_section_at(&m->def.beam, z, section);
+    const enum status st =
+        static_ply_states(&section->shape, m->beam.shear, out->strain, ply, &out->n_ply);
+    free(section);
     out->ply = ply; /* freed with the result, also after a failure */
     return st;
 }

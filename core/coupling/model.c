@@ -10,73 +10,17 @@
 
 enum { ROOT_NODES = 4 }; /* extra ones at most next to the clamp */
 
-/* Stations around z: *t is the place between number i (returned) and i + 1. */
-static int stations_around(const struct beam_def *b, double z, double *t)
-{
-    int i = 0;
-    while (i + 2 < b->n_station && z >= b->station[i + 1].z) {
-        i++;
-    }
-    const double span = b->station[i + 1].z - b->station[i].z;
-    *t = span > 0.0 ? num_clamp((z - b->station[i].z) / span, 0.0, 1.0) : 1.0;
-    return i;
-}
-
-void model_shape_at(const struct beam_def *b, double z, struct shape *out)
-{
-    if (b->n_station == 0) {
-        *out = b->section.shape;
-        return;
-    }
-    double t = 0.0;
-    const int i = stations_around(b, z, &t);
-    shape_blend(&b->station[i].section.shape, &b->station[i + 1].section.shape, t, out);
-}
-
-const struct section_def *model_section_at(const struct beam_def *b, double z)
-{
-    double t = 0.0;
-    return b->n_station > 0 ? &b->station[stations_around(b, z, &t)].section : &b->section;
-}
-
-double model_chord_at(const struct beam_def *b, double z)
-{
-    if (b->n_station == 0) {
-        return section_def_chord(&b->section);
-    }
-    double t = 0.0;
-    const int i = stations_around(b, z, &t);
-    const double inner = section_def_chord(&b->station[i].section);
-    return inner + t * (section_def_chord(&b->station[i + 1].section) - inner);
-}
-
-/* Mid-chord of the section at z from the beam's axis; it turns with the section. */
-static struct shape_point mid_chord_at(const struct beam_def *b, double z)
-{
-    const struct section_def *inner = &b->section, *outer = &b->section;
-    double t = 0.0;
-    if (b->n_station > 0) {
-        const int i = stations_around(b, z, &t);
-        inner = &b->station[i].section;
-        outer = &b->station[i + 1].section;
-    }
-    const double from = section_def_mid_chord(inner);
-    const double x = from + t * (section_def_mid_chord(outer) - from);
-    const double turn = inner->shape.turn + t * (outer->shape.turn - inner->shape.turn);
-    return (struct shape_point){x * cos(turn), x * sin(turn)};
-}
-
 struct beam_motion model_motion_at(const struct model *m, const double *x, double z)
 {
     struct beam_motion at = beam_motion_at(&m->beam, x, z);
-    const struct shape_point p = mid_chord_at(&m->def.beam, z);
+    const struct shape_point p = beam_def_mid_chord_at(&m->def.beam, z);
     at.u -= p.y * at.theta;
     at.v += p.x * at.theta;
     at.w += p.y * at.phi - p.x * at.psi;
     return at;
 }
 
-static enum status section_of(const struct shape *shape, struct section *out)
+static enum status section_of_walls(const struct shape *shape, struct section *out)
 {
     struct laminate *laminate = malloc(LIMIT_WALLS * sizeof *laminate);
     struct contour contour = {0};
@@ -92,11 +36,20 @@ static enum status section_of(const struct shape *shape, struct section *out)
     return st;
 }
 
+static enum status section_of(const struct section_def *s, struct section *out)
+{
+    if (s->shape.type != SECTION_PROPERTIES) {
+        return section_of_walls(&s->shape, out);
+    }
+    properties_build(&s->properties, out);
+    return ST_OK;
+}
+
 static enum status build_section(struct model *m)
 {
     const struct section_def *root = beam_def_root(&m->def.beam);
     m->thickness = section_def_height(root);
-    enum status st = section_of(&root->shape, &m->section);
+    enum status st = section_of(root, &m->section);
     if (st == ST_OK) {
         st = section_summarise(&m->section, &m->section_summary);
     }
@@ -106,8 +59,8 @@ static enum status build_section(struct model *m)
     return st;
 }
 
-static enum status try_section(const struct shape *given, const char *pointer,
-                               struct failure_list *out)
+static enum status try_walls(const struct shape *given, const char *pointer,
+                             struct failure_list *out)
 {
     enum { COARSE = 2 }; /* elements a wall: regular there is regular in any mesh */
     struct section section;
@@ -119,7 +72,7 @@ static enum status try_section(const struct shape *given, const char *pointer,
     }
     *shape = *given;
     shape->contour_elements = shape->contour_elements < COARSE ? shape->contour_elements : COARSE;
-    enum status st = section_of(shape, &section);
+    enum status st = section_of_walls(shape, &section);
     if (st == ST_OK) {
         st = section_summarise(&section, &summary);
     }
@@ -136,18 +89,39 @@ static enum status try_section(const struct shape *given, const char *pointer,
     return st;
 }
 
+/* The check of properties has said all there is. */
+static enum status try_section(const struct section_def *s, const char *pointer,
+                               struct failure_list *out)
+{
+    return s->shape.type == SECTION_PROPERTIES ? ST_OK : try_walls(&s->shape, pointer, out);
+}
+
 enum status model_try_sections(const struct beam_def *b, struct failure_list *out)
 {
     if (b->n_station == 0) {
-        return try_section(&b->section.shape, "/beam/section", out);
+        return try_section(&b->section, "/beam/section", out);
     }
     enum status st = ST_OK;
     for (int i = 0; i < b->n_station && st == ST_OK; i++) {
         char pointer[64];
         (void)snprintf(pointer, sizeof pointer, "/beam/stations/%d/section", i);
-        st = try_section(&b->station[i].section.shape, pointer, out);
+        st = try_section(&b->station[i].section, pointer, out);
     }
     return st;
+}
+
+/* Reach of a held warping along the span [m]. */
+static double warping_reach(const struct model *m)
+{
+    return sqrt(fmax(m->centres.ei_warping, 0.0) / m->centres.gj);
+}
+
+/* A section without warping stiffness is free to warp at the clamp as well: what held it there
+ * would come free at once. */
+static enum root_warping root_of(const struct model *m)
+{
+    const double least = 1e-6 * m->def.beam.length;
+    return warping_reach(m) > least ? m->def.beam.root_warping : ROOT_WARPING_FREE;
 }
 
 /* A clamp that holds the warping also holds theta', which a coupled beam needs for its bending;
@@ -156,10 +130,10 @@ enum status model_try_sections(const struct beam_def *b, struct failure_list *ou
 static int root_layer(const struct model *m, double *z)
 {
     const struct beam_def *b = &m->def.beam;
-    const double reach = sqrt(fmax(m->centres.ei_warping, 0.0) / m->centres.gj);
+    const double reach = warping_reach(m);
     double at = b->length / b->elements / 3.0;
     int n = 0;
-    while (b->root_warping == ROOT_WARPING_RESTRAINED && n < ROOT_NODES && at > reach) {
+    while (root_of(m) == ROOT_WARPING_RESTRAINED && n < ROOT_NODES && at > reach) {
         z[n++] = at;
         at /= 3.0;
     }
@@ -186,15 +160,15 @@ static enum status build_beam(struct model *m)
     const struct beam_def *b = &m->def.beam;
     struct beam_mesh mesh = {0};
     struct section *varying = NULL;
-    struct shape *shape = NULL;
+    struct section_def *at = NULL;
     enum status st = build_mesh(m, &mesh);
     if (st == ST_OK && b->n_station > 0) {
         varying = malloc((size_t)(BEAM_GAUSS * mesh.n_element) * sizeof *varying);
-        shape = malloc(sizeof *shape);
-        st = varying != NULL && shape != NULL ? ST_OK : ST_NO_MEMORY;
+        at = malloc(sizeof *at);
+        st = varying != NULL && at != NULL ? ST_OK : ST_NO_MEMORY;
         for (int i = 0; i < BEAM_GAUSS * mesh.n_element && st == ST_OK; i++) {
-            model_shape_at(b, beam_mesh_gauss(&mesh, i / BEAM_GAUSS, i % BEAM_GAUSS), shape);
-            st = section_of(shape, &varying[i]);
+            beam_def_section_at(b, beam_mesh_gauss(&mesh, i / BEAM_GAUSS, i % BEAM_GAUSS), at);
+            st = section_of(at, &varying[i]);
         }
     }
     if (st == ST_OK) {
@@ -202,12 +176,12 @@ static enum status build_beam(struct model *m)
                                        .section = varying != NULL ? varying : &m->section,
                                        .uniform = varying == NULL,
                                        .shear = beam_def_root(b)->shear,
-                                       .root = b->root_warping,
+                                       .root = root_of(m),
                                        .n_mass = b->n_mass,
                                        .mass = b->mass};
         st = beam_build(&spec, &m->beam);
     }
-    free(shape);
+    free(at);
     free(varying);
     beam_mesh_done(&mesh);
     if (st == ST_OK && m->def.kind != CASE_STATIC) {
@@ -255,7 +229,7 @@ static enum status build_transfer(struct model *m)
     m->station_theta = m->station_v + block;
     m->area = 0.0;
     for (int i = 0; i < m->n_station; i++) {
-        m->chord[i] = model_chord_at(&m->def.beam, (i + 0.5) * m->station_length);
+        m->chord[i] = beam_def_chord_at(&m->def.beam, (i + 0.5) * m->station_length);
         m->area += m->chord[i] * m->station_length;
     }
     for (int j = 0; j < m->n_mode; j++) {

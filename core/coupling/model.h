@@ -14,7 +14,7 @@ struct model {
     struct section section; /* of the root */
     struct section_summary section_summary;
     struct centres centres;
-    double thickness;   /* of the root section, overall [m] */
+    double thickness;   /* of the root section, overall [m]; NaN with properties */
     struct beam beam;   /* not for CASE_SECTION */
     struct modes modes; /* CASE_MODES and CASE_SIMULATION */
 
@@ -52,13 +52,6 @@ void model_done(struct model *m);
  * those that cannot carry load: what is wrong with them only shows there. ST_NO_MEMORY or ST_OK. */
 MUST_CHECK enum status model_try_sections(const struct beam_def *b, struct failure_list *out);
 
-/* Shape of the section at z [m]: that of the beam, or blended between its stations. At a jump the
- * outer side. */
-void model_shape_at(const struct beam_def *b, double z, struct shape *out);
-/* The given section that the one at z has its make-up from: type, walls, layups, materials. */
-const struct section_def *model_section_at(const struct beam_def *b, double z);
-/* Aerodynamic chord at z [m]. */
-double model_chord_at(const struct beam_def *b, double z);
 /* Motion of mid-chord at z [m] for freedoms x of the beam (n_dof): what the stream sees and results
  * report. The beam's own motion is that of its axis, the origin of the sections. */
 struct beam_motion model_motion_at(const struct model *m, const double *x, double z);

@@ -25,6 +25,22 @@ static enum status flexibility(const struct section *s, double f[FLEX * FLEX])
     return la_solve_symmetric(FLEX, k, FLEX, f);
 }
 
+/* A force Q_y at x adds the torque x Q_y, Q_x at y the torque -y Q_x. Properties are about it. */
+static enum status shear_centre(const struct section *s, struct centres *out)
+{
+    double f[FLEX * FLEX];
+    if (s->shear_unknown) {
+        out->shear_x = out->shear_y = 0.0;
+        return ST_OK;
+    }
+    const enum status st = flexibility(s, f);
+    if (st == ST_OK) {
+        out->shear_x = -f[num_at(F_THETA, F_GYZ, FLEX)] / f[num_at(F_THETA, F_THETA, FLEX)];
+        out->shear_y = f[num_at(F_THETA, F_GXZ, FLEX)] / f[num_at(F_THETA, F_THETA, FLEX)];
+    }
+    return st;
+}
+
 /* Moves the classic matrix to other axes: w' is taken at the tension centre, the rotation theta
  * about the shear centre. Strains of the old axes per unit of the new ones. */
 static void refer(const struct section *s, double xt, double yt, double xs, double ys,
@@ -79,8 +95,8 @@ enum status centres_find(const struct section *s, struct centres *out)
     static const int axial_bending[3] = {S_W, S_PSI, S_PHI}, bending[2] = {S_PSI, S_PHI};
     static const int torsion[1] = {S_THETA};
     struct centres c = {0};
-    double f[FLEX * FLEX], ab[9], ei[4], referred[C * C];
-    enum status st = flexibility(s, f);
+    double ab[9], ei[4], referred[C * C];
+    enum status st = shear_centre(s, &c);
     if (st == ST_OK) {
         st = section_condense(s, 3, axial_bending, ab);
     }
@@ -91,9 +107,6 @@ enum status centres_find(const struct section *s, struct centres *out)
     /* Unit w' makes moments -x N about psi' and y N about phi'. */
     c.tension_x = -ab[1] / ab[0];
     c.tension_y = ab[2] / ab[0];
-    /* A force Q_y at x adds the torque x Q_y, Q_x at y the torque -y Q_x. */
-    c.shear_x = -f[num_at(F_THETA, F_GYZ, FLEX)] / f[num_at(F_THETA, F_THETA, FLEX)];
-    c.shear_y = f[num_at(F_THETA, F_GXZ, FLEX)] / f[num_at(F_THETA, F_THETA, FLEX)];
     refer(s, c.tension_x, c.tension_y, c.shear_x, c.shear_y, referred);
     st = section_condense(s, 2, bending, ei);
     if (st == ST_OK) {

@@ -24,7 +24,7 @@ struct centres {
     double extension_twist;       /* [N m] */
     double flap_twist, lag_twist; /* moments about -v'' and u'' per unit theta' [N m^2] */
     double flap_lag;              /* [N m^2] */
-    double extension_shear_x, extension_shear_y; /* [N], retained set */
+    double extension_shear_x, extension_shear_y; /* [N], retained set; NaN when not known */
 };
 
 MUST_CHECK enum status centres_find(const struct section *s, struct centres *out);

@@ -76,7 +76,7 @@ enum status section_build(const struct contour *c, const struct laminate *lamina
                           struct section *out)
 {
     assert(c->n_element >= 1);
-    struct section s;
+    struct section s = {.shear_unknown = false};
     struct warping classic = {0}, retained = {0};
     enum status st = warping_solve(c, laminate, &classic, &retained);
     if (st != ST_OK) {

@@ -30,6 +30,7 @@ struct section {
      */
     bool has_warping_shear;
     double warping_shear[SECTION_STRAIN_COUNT + 1];
+    bool shear_unknown; /* rows of the shears in `stiffness` are NaN: core/structure/properties.h */
 };
 
 /* Integrates the walls. laminate[] is indexed by contour_element.laminate. */

@@ -51,6 +51,7 @@ static int walls_of(const struct shape *s, struct shape_point point[LIMIT_POINTS
         *n_point = BOX_WALLS;
         return BOX_WALLS;
     case SECTION_CONTOUR:
+    case SECTION_PROPERTIES:
         break;
     }
     memcpy(point, s->point, (size_t)s->n_point * sizeof *point);
@@ -67,6 +68,7 @@ int shape_wall_layup(const struct shape *s, int wall)
     case SECTION_BOX:
         return s->n_layup == BOX_WALLS ? wall : 0;
     case SECTION_CONTOUR:
+    case SECTION_PROPERTIES:
         break;
     }
     return s->wall[wall].layup;
@@ -124,6 +126,7 @@ double shape_extent(const struct shape *s, int axis)
     case SECTION_BOX:
         return axis == 0 ? s->width : s->height;
     case SECTION_CONTOUR:
+    case SECTION_PROPERTIES:
         break;
     }
     double lo = HUGE_VAL, hi = -HUGE_VAL;

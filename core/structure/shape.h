@@ -14,7 +14,8 @@
 
 #include <stdbool.h>
 
-enum section_type { SECTION_STRIP, SECTION_BOX, SECTION_CONTOUR };
+/* SECTION_PROPERTIES has no walls and no shape: core/structure/properties.h. */
+enum section_type { SECTION_STRIP, SECTION_BOX, SECTION_CONTOUR, SECTION_PROPERTIES };
 
 struct layup {
     char name[LIMIT_NAME]; /* "" for the only one of a strip or box */

@@ -357,9 +357,9 @@ static void test_defaults(void **state)
     } minimal[] = {
         {HEAD("simulation", STRIP) "},\"flow\":{\"speed_m_s\":1},\"aerodynamics\":{\"polar\":"
                                    "\"plate-4pct-channel\"},\"solver\":{\"duration_s\":1}}",
-         35},
-        {HEAD("modes", BOX) ",\"masses\":[{\"z_m\":1,\"mass_kg\":1}]}}", 15},
-        {HEAD("static", CONTOUR) "},\"loads\":{\"points\":[{\"z_m\":1}],\"lines\":[{}]}}", 28},
+         36},
+        {HEAD("modes", BOX) ",\"masses\":[{\"z_m\":1,\"mass_kg\":1}]}}", 16},
+        {HEAD("static", CONTOUR) "},\"loads\":{\"points\":[{\"z_m\":1}],\"lines\":[{}]}}", 29},
     };
     const struct fixture *f = *state;
     for (size_t i = 0; i < sizeof minimal / sizeof minimal[0]; i++) {

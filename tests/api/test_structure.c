@@ -33,6 +33,38 @@
     "{\"name\":\"steel\",\"e_l_pa\":2.1e11,\"e_t_pa\":2.1e11,\"g_lt_pa\":8e10,"                    \
     "\"g_tt_pa\":8e10,\"nu_lt\":0.3,\"nu_tt\":0.3,\"density_kg_m3\":7850"
 
+#define PROPERTIES_OF(rest_)                                                                       \
+    "{\"type\":\"properties\",\"chord_m\":2,\"ei_flap_n_m2\":100,\"gj_n_m2\":25,"                  \
+    "\"mass_kg_m\":3,\"torsion_inertia_kg_m\":0.5" rest_ "}"
+#define PROPERTIES PROPERTIES_OF("")
+
+static void test_properties(void **state)
+{
+    struct api_case *c = parse_good(
+        *state, SECTION_CASE(PROPERTIES_OF(",\"elastic_axis_chord\":0.4,\"mass_axis_chord\":0.45,"
+                                           "\"torsion_inertia_about\":\"mid_chord\","
+                                           "\"bend_twist_n_m2\":-5,\"ei_warping_n_m4\":0.1")));
+    const struct section_def *s = &api_case_def(c)->beam.section;
+    assert_int_equal(s->shape.type, SECTION_PROPERTIES);
+    assert_int_equal(s->properties.inertia_axis, INERTIA_MID_CHORD);
+    assert_near_abs(s->properties.bend_twist, -5.0, 0.0);
+    assert_near_abs(s->properties.ei_warping, 0.1, 0.0);
+    assert_near_abs(section_def_chord(s), 2.0, 0.0);
+    assert_near_abs(section_def_mid_chord(s), -0.2, 1e-15);
+    assert_non_null(strstr(api_case_canonical(c), "\"torsion_inertia_about\":\"mid_chord\""));
+    api_case_destroy(c);
+    /* What may be left open is filled in from the rest, and shown. */
+    c = parse_good(*state, SECTION_CASE(PROPERTIES_OF(",\"elastic_axis_chord\":0.3")));
+    s = &api_case_def(c)->beam.section;
+    assert_near_abs(s->properties.ei_lag, 1e6, 0.0);
+    assert_near_abs(s->properties.ea, 3e6, 0.0);
+    assert_near_abs(s->properties.mass_axis, 0.3, 0.0);
+    assert_int_equal(s->properties.inertia_axis, INERTIA_ELASTIC_AXIS);
+    assert_non_null(strstr(api_case_canonical(c), "\"ei_lag_n_m2\":1000000,"));
+    assert_non_null(strstr(api_case_canonical(c), "\"mass_axis_chord\":0.3,"));
+    api_case_destroy(c);
+}
+
 static void test_box(void **state)
 {
     struct api_case *c = parse_good(*state, SECTION_CASE(BOX));
@@ -125,6 +157,7 @@ static void test_canonical_is_stable(void **state)
 {
     static const char *const cases[] = {
         SECTION_CASE(BOX),
+        SECTION_CASE(PROPERTIES),
         SECTION_CASE(BOX_OF(WALLS ",\"chord_m\":0.3,\"twist_deg\":3.3")),
         SECTION_CASE(CONTOUR_OF(TWO_LAYUPS, SQUARE,
                                 "{\"from\":0,\"to\":1,\"layup\":\"web\",\"offset_m\":0.0005},"
@@ -224,6 +257,36 @@ static const struct bad bad_cases[] = {
     {CONTOUR_CASE(SQUARE, ROUND ",{\"from\":0,\"to\":2,\"layup\":\"skin\",\"via\":{\"x_m\":1}}"),
      "/beam/section/walls/4/via/y_m", "required"},
     {WEAK, "/beam/section", "cannot_carry_load"},
+    /* properties */
+    {SECTION_CASE("{\"type\":\"properties\",\"chord_m\":2,\"ei_flap_n_m2\":100,\"mass_kg_m\":3,"
+                  "\"torsion_inertia_kg_m\":0.5}"),
+     "/beam/section/gj_n_m2", "required"},
+    {SECTION_CASE("{\"type\":\"properties\",\"chord_m\":2,\"gj_n_m2\":100,\"mass_kg_m\":3,"
+                  "\"torsion_inertia_kg_m\":0.5}"),
+     "/beam/section/ei_flap_n_m2", "required"},
+    {SECTION_CASE(PROPERTIES_OF(",\"ea_n\":0")), "/beam/section/ea_n", "out_of_range"},
+    {SECTION_CASE(PROPERTIES_OF(",\"ei_lag_n_m2\":-1")), "/beam/section/ei_lag_n_m2",
+     "out_of_range"},
+    {SECTION_CASE(PROPERTIES_OF(",\"ei_warping_n_m4\":-1")), "/beam/section/ei_warping_n_m4",
+     "out_of_range"},
+    {SECTION_CASE(PROPERTIES_OF(",\"elastic_axis_chord\":1.01")),
+     "/beam/section/elastic_axis_chord", "out_of_range"},
+    {SECTION_CASE(PROPERTIES_OF(",\"mass_axis_chord\":-0.01")), "/beam/section/mass_axis_chord",
+     "out_of_range"},
+    {SECTION_CASE(PROPERTIES_OF(",\"bend_twist_n_m2\":-50")), "/beam/section/bend_twist_n_m2",
+     "not_positive_definite"},
+    {SECTION_CASE(PROPERTIES_OF(",\"mass_axis_chord\":0.8")), "/beam/section/torsion_inertia_kg_m",
+     "inertia_too_small"},
+    {SECTION_CASE(PROPERTIES_OF(",\"torsion_inertia_about\":\"quarter_chord\"")),
+     "/beam/section/torsion_inertia_about", "unknown_value"},
+    {SECTION_CASE(PROPERTIES_OF(",\"shear\":\"retained\"")), "/beam/section/shear",
+     "shear_not_known"},
+    {SECTION_CASE(PROPERTIES_OF(",\"layup\":[]")), "/beam/section/layup", "unknown_key"},
+    {MODES_CASE("\"stations\":[" STATION(0, STRIP) "," STATION(1, PROPERTIES) "]"),
+     "/beam/stations/1/z_m", "stations_differ"},
+    {"{\"schema_version\":1,\"kind\":\"static\",\"beam\":{\"length_m\":1,\"section\":" PROPERTIES
+     "},\"loads\":{\"tip\":{\"force_y_n\":1}},\"output\":{\"stress_at_m\":[0.5]}}",
+     "/output/stress_at_m/0", "no_walls"},
     /* materials */
     {WITH_MATERIAL("{\"name\":\"m\",\"e_l_pa\":1,\"e_t_pa\":4,\"g_lt_pa\":1,\"g_tt_pa\":1,"
                    "\"nu_lt\":0.5,\"nu_tt\":0,\"density_kg_m3\":1}"),
@@ -290,6 +353,7 @@ static void test_bad_cases(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_properties),
         cmocka_unit_test(test_box),
         cmocka_unit_test(test_contour),
         cmocka_unit_test(test_stations),

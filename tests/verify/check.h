@@ -64,6 +64,7 @@ struct check_group {
     X(integrators)                                                                                 \
     X(examples)                                                                                    \
     X(damping)                                                                                     \
+    X(axes)                                                                                        \
     X(static_aero)                                                                                 \
     X(coupling)
 
