@@ -220,16 +220,19 @@ def plunge_anchors():
 
 
 def document_rows():
-    """All rows in order. Within a block the i-th of n rows has the rank (i + 1/2) / n, drawn forward
-    where the polar waits for it; the angles at mid-channel come before everything."""
-    urgency = {"static": 0.0, "static_plunge": 0.45, "check_static": 0.5}
+    """All rows in order. Within a block the i-th of n rows has the rank x = (i + 1/2) / n, drawn forward
+    to a x^b where the polar waits for it; the angles at mid-channel come before everything."""
+    forward = {"static": (0.0, 1.0), "static_plunge": (0.5, 2.5), "check_static": (0.5, 1.5)}
     blocks = {}
     for source in (statics(), anchors("sine_pitch_slow"), plunge_anchors(), sines(), broadband(),
                    statics_off_centre(), slope_checks(), reynolds(), motion_checks()):
         for row in source:
             blocks.setdefault(row["block"], []).append(row)
-    ranked = [((i + 0.5) / len(rows) * urgency.get(block, 1.0), k, i, row)
-              for k, (block, rows) in enumerate(blocks.items()) for i, row in enumerate(rows)]
+    ranked = []
+    for k, (block, rows) in enumerate(blocks.items()):
+        factor, power = forward.get(block, (1.0, 1.0))
+        ranked += [(factor * ((i + 0.5) / len(rows)) ** power, k, i, row)
+                   for i, row in enumerate(rows)]
     return [entry[3] for entry in sorted(ranked, key=lambda entry: entry[:3])]
 
 
