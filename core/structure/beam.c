@@ -123,6 +123,9 @@ static enum status assemble(const struct beam_spec *spec, struct beam *b)
         scatter(b, e, OUTER, el.m, b->m);
         scatter_inertia(b, e, OUTER, el.m);
         memcpy(b->inner + num_at(0, e, BEAM_INNER * OUTER), el.inner, sizeof el.inner);
+        if (b->inner_inertia != NULL) {
+            b->inner_inertia[e] = el.inertia;
+        }
     }
     for (int i = 0; i < spec->n_mass; i++) {
         double m[NODE * NODE];
@@ -146,8 +149,12 @@ enum status beam_build(const struct beam_spec *spec, struct beam *out)
         .length = mesh->z[n_element], .shear = spec->shear, .root = spec->root, .n_dof = n};
     b.k = calloc(2 * size + 3 * (size_t)n, sizeof *b.k);
     b.inner = malloc((size_t)(BEAM_INNER * OUTER) * (size_t)n_element * sizeof *b.inner);
+    if (spec->shear == SHEAR_RETAINED) {
+        b.inner_inertia = malloc((size_t)n_element * sizeof *b.inner_inertia);
+    }
     b.mesh = (struct beam_mesh){.n_element = n_element, .z = malloc(nodes * sizeof *b.mesh.z)};
-    if (b.k == NULL || b.inner == NULL || b.mesh.z == NULL) {
+    if (b.k == NULL || b.inner == NULL || b.mesh.z == NULL ||
+        (spec->shear == SHEAR_RETAINED && b.inner_inertia == NULL)) {
         beam_done(&b);
         return ST_NO_MEMORY;
     }
@@ -167,8 +174,27 @@ void beam_done(struct beam *b)
 {
     free(b->k);
     free(b->inner);
+    free(b->inner_inertia);
     beam_mesh_done(&b->mesh);
     *b = (struct beam){0};
+}
+
+void beam_inner_inertia(const struct beam *b, const double *x, double *stiffness, double *mass)
+{
+    *stiffness = *mass = 0.0;
+    for (int e = 0; b->inner_inertia != NULL && e < b->mesh.n_element; e++) {
+        const struct inner_inertia *a = &b->inner_inertia[e];
+        double local[OUTER];
+        for (int i = 0; i < OUTER; i++) {
+            const int index = element_index(b, e, i);
+            local[i] = index >= 0 ? x[index] : 0.0;
+        }
+        for (int k = 0; k < OUTER * OUTER; k++) {
+            const double both = local[k % OUTER] * local[k / OUTER];
+            *stiffness += both * a->stiffness[k];
+            *mass += both * a->mass[k];
+        }
+    }
 }
 
 /* Element that holds z, its place in it, and the rows there. */

@@ -56,6 +56,13 @@ struct beam_spec {
 
 enum { BEAM_OUTER = 2 * BEAM_NODE_FREEDOMS, BEAM_INNER = 8 };
 
+/* In k and m the internal freedoms of an element follow its nodes statically. Their own inertia
+ * adds w^2 r x to them in a motion x of angular frequency w, r = K_ii^-1 (M_io + M_ii inner). */
+struct inner_inertia {
+    double stiffness[BEAM_OUTER * BEAM_OUTER]; /* r' K_ii r = r' (M_io + M_ii inner) */
+    double mass[BEAM_OUTER * BEAM_OUTER];      /* r' M_ii r */
+};
+
 struct beam {
     double length; /* [m] */
     struct beam_mesh mesh;
@@ -70,6 +77,7 @@ struct beam {
     double root_inertia[BEAM_NODE_FREEDOMS * 3];
     double *inner; /* internal modes of each element per unit of its node freedoms
                       (BEAM_INNER x BEAM_OUTER x n_element) */
+    struct inner_inertia *inner_inertia; /* (n_element) with retained shear, else NULL */
 };
 
 MUST_CHECK enum status beam_build(const struct beam_spec *spec, struct beam *out);
@@ -79,6 +87,10 @@ void beam_done(struct beam *b);
 int beam_index(const struct beam *b, int node, enum beam_freedom freedom);
 /* The kind of freedom at an index. */
 enum beam_freedom beam_freedom_at(const struct beam *b, int index);
+
+/* Products x' stiffness x and x' mass x of the inertia of all internal freedoms, zero with
+ * condensed shear: what is left out there, that of w, is below 1e-6. */
+void beam_inner_inertia(const struct beam *b, const double *x, double *stiffness, double *mass);
 
 /* Motion of the section at z in [0, length] for a freedom vector x (n_dof). */
 struct beam_motion {

@@ -157,33 +157,76 @@ static void add_eta(const struct element_rows *rows, const double *stiffness, do
     }
 }
 
-/* Condenses the first n_inner internal freedoms: inner = t outer with t = -K_ii^-1 K_io. */
-static enum status solve_inner(const double k[ALL * ALL], int n_inner, double t[BEAM_INNER * OUTER])
+/* Blocks of a full matrix: inner by inner (n_inner x n_inner), inner by outer (n_inner x OUTER). */
+static void split(const double full[ALL * ALL], int n_inner, double *ii, double *io)
 {
-    double kii[BEAM_INNER * BEAM_INNER], kio[BEAM_INNER * OUTER];
     for (int p = 0; p < n_inner; p++) {
         for (int q = 0; q < n_inner; q++) {
-            kii[p + n_inner * q] = k[num_at(OUTER + p, OUTER + q, ALL)];
+            ii[p + n_inner * q] = full[num_at(OUTER + p, OUTER + q, ALL)];
         }
         for (int j = 0; j < OUTER; j++) {
-            kio[p + n_inner * j] = -k[num_at(OUTER + p, j, ALL)];
+            io[p + n_inner * j] = full[num_at(OUTER + p, j, ALL)];
         }
     }
-    const enum status st = la_cholesky(n_inner, kii);
-    if (st != ST_OK) {
-        return st;
-    }
-    la_cholesky_solve(n_inner, kii, OUTER, kio);
-    memset(t, 0, (size_t)(BEAM_INNER * OUTER) * sizeof *t);
-    for (int j = 0; j < OUTER; j++) {
-        for (int p = 0; p < n_inner; p++) {
-            t[num_at(p, j, BEAM_INNER)] = kio[p + n_inner * j];
-        }
-    }
-    return ST_OK;
 }
 
-/* [I; t]' x [I; t], x (ALL x ALL) -> out (OUTER x OUTER). */
+/* out (OUTER x OUTER) = a' b, both (n x OUTER). */
+static void square(int n, const double *a, const double *b, double *out)
+{
+    for (int j = 0; j < OUTER; j++) {
+        for (int i = 0; i < OUTER; i++) {
+            double sum = 0.0;
+            for (int p = 0; p < n; p++) {
+                sum += a[p + n * i] * b[p + n * j];
+            }
+            out[num_at(i, j, OUTER)] = sum;
+        }
+    }
+}
+
+/* Adds a (n x n) b (n x OUTER) to out (n x OUTER). */
+static void multiply_add(int n, const double *a, const double *b, double *out)
+{
+    for (int j = 0; j < OUTER; j++) {
+        for (int p = 0; p < n; p++) {
+            for (int q = 0; q < n; q++) {
+                out[p + n * j] += a[p + n * q] * b[q + n * j];
+            }
+        }
+    }
+}
+
+/* Condenses the first n_inner internal freedoms: inner = t outer with t = -K_ii^-1 K_io (n_inner x
+ * OUTER); factor (n_inner x n_inner) is that of K_ii. */
+static enum status solve_inner(const double k[ALL * ALL], int n_inner, double *factor, double *t)
+{
+    split(k, n_inner, factor, t);
+    const enum status st = la_cholesky(n_inner, factor);
+    if (st == ST_OK) {
+        for (int i = 0; i < n_inner * OUTER; i++) {
+            t[i] = -t[i];
+        }
+        la_cholesky_solve(n_inner, factor, OUTER, t);
+    }
+    return st;
+}
+
+/* What the inertia of the internal freedoms adds to their static place t. */
+static void add_inertia(const double m[ALL * ALL], int n_inner, const double *factor,
+                        const double *t, struct inner_inertia *out)
+{
+    double mii[BEAM_INNER * BEAM_INNER], force[BEAM_INNER * OUTER], r[BEAM_INNER * OUTER];
+    split(m, n_inner, mii, force);
+    multiply_add(n_inner, mii, t, force);
+    memcpy(r, force, sizeof r);
+    la_cholesky_solve(n_inner, factor, OUTER, r);
+    square(n_inner, force, r, out->stiffness);
+    memset(force, 0, sizeof force);
+    multiply_add(n_inner, mii, r, force);
+    square(n_inner, r, force, out->mass);
+}
+
+/* [I; t]' x [I; t], x (ALL x ALL), t (n_inner x OUTER) -> out (OUTER x OUTER). */
 static void reduce(const double *x, int n_inner, const double *t, double *out)
 {
     double xt[ALL * OUTER]; /* x [I; t] */
@@ -191,7 +234,7 @@ static void reduce(const double *x, int n_inner, const double *t, double *out)
         for (int i = 0; i < ALL; i++) {
             double sum = x[num_at(i, j, ALL)];
             for (int p = 0; p < n_inner; p++) {
-                sum += x[num_at(i, OUTER + p, ALL)] * t[num_at(p, j, BEAM_INNER)];
+                sum += x[num_at(i, OUTER + p, ALL)] * t[num_at(p, j, n_inner)];
             }
             xt[num_at(i, j, ALL)] = sum;
         }
@@ -200,7 +243,7 @@ static void reduce(const double *x, int n_inner, const double *t, double *out)
         for (int i = 0; i < OUTER; i++) {
             double sum = xt[num_at(i, j, ALL)];
             for (int p = 0; p < n_inner; p++) {
-                sum += t[num_at(p, i, BEAM_INNER)] * xt[num_at(OUTER + p, j, ALL)];
+                sum += t[num_at(p, i, n_inner)] * xt[num_at(OUTER + p, j, ALL)];
             }
             out[num_at(i, j, OUTER)] = sum;
         }
@@ -227,10 +270,21 @@ enum status element_build(const struct section *const section[BEAM_GAUSS], doubl
         }
         add_product(MOTION, MOTION, rows.motion, retained ? s->mass_retained : s->mass, weight, m);
     }
-    const enum status st = solve_inner(k, n_inner, out->inner);
-    if (st == ST_OK) {
-        reduce(k, n_inner, out->inner, out->k);
-        reduce(m, n_inner, out->inner, out->m);
+    double factor[BEAM_INNER * BEAM_INNER], t[BEAM_INNER * OUTER];
+    const enum status st = solve_inner(k, n_inner, factor, t);
+    if (st != ST_OK) {
+        return st;
     }
-    return st;
+    reduce(k, n_inner, t, out->k);
+    reduce(m, n_inner, t, out->m);
+    if (retained) {
+        add_inertia(m, n_inner, factor, t, &out->inertia);
+    }
+    memset(out->inner, 0, sizeof out->inner);
+    for (int j = 0; j < OUTER; j++) {
+        for (int p = 0; p < n_inner; p++) {
+            out->inner[num_at(p, j, BEAM_INNER)] = t[p + n_inner * j];
+        }
+    }
+    return ST_OK;
 }

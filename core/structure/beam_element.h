@@ -35,6 +35,7 @@ struct element {
     double k[BEAM_OUTER * BEAM_OUTER];
     double m[BEAM_OUTER * BEAM_OUTER];
     double inner[BEAM_INNER * BEAM_OUTER];
+    struct inner_inertia inertia; /* with retained shear only */
 };
 MUST_CHECK enum status element_build(const struct section *const section[BEAM_GAUSS], double h,
                                      enum shear_model shear, struct element *out);

@@ -53,6 +53,43 @@ static void fix_sign(const struct beam *b, double chord, const struct modes *m, 
     }
 }
 
+/* Gives the internal freedoms of the elements their own inertia: lambda becomes the Rayleigh
+ * quotient of the mode in which they stand at inner x + lambda r x. Their static place alone leaves
+ * an error of second order in the length of the elements: the shear strain inside would not know
+ * that the transverse inertia changes the shear force along the element. */
+static void refine(const struct beam *b, double *lambda, double *x)
+{
+    double stiffness, mass;
+    beam_inner_inertia(b, x, &stiffness, &mass);
+    const double modal_mass = 1.0 + *lambda * (2.0 * stiffness + *lambda * mass);
+    *lambda *= (1.0 + *lambda * stiffness) / modal_mass;
+    for (int i = 0; i < b->n_dof; i++) {
+        x[i] /= sqrt(modal_mass);
+    }
+}
+
+static void swap(int n, double *a, double *b)
+{
+    for (int i = 0; i < n; i++) {
+        const double kept = a[i];
+        a[i] = b[i];
+        b[i] = kept;
+    }
+}
+
+/* Refined frequencies of close modes may change places. */
+static void sort_modes(struct modes *m)
+{
+    const size_t n = (size_t)m->n_dof;
+    for (int i = 1; i < m->n_mode; i++) {
+        for (int j = i; j > 0 && m->omega[j] < m->omega[j - 1]; j--) {
+            double *a = m->shape + (size_t)(j - 1) * n, *b = a + n;
+            swap(1, m->omega + j - 1, m->omega + j);
+            swap(m->n_dof, a, b);
+        }
+    }
+}
+
 enum status modes_solve(const struct beam *b, double chord, int n_mode, struct modes *out)
 {
     assert(n_mode >= 1);
@@ -73,6 +110,10 @@ enum status modes_solve(const struct beam *b, double chord, int n_mode, struct m
     if (st != ST_OK) {
         goto out;
     }
+    for (int j = 0; j < n_mode; j++) {
+        refine(b, m.omega + j, m.shape + (size_t)j * n);
+    }
+    sort_modes(&m);
     for (int j = 0; j < n_mode; j++) {
         m.omega[j] = sqrt(m.omega[j]);
         kinetic_shares(b, m.shape + (size_t)j * n, m.share + (size_t)j * MODE_SHARES);

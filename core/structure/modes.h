@@ -12,8 +12,9 @@ struct modes {
     int n_mode;
     int n_dof;
     double *omega; /* natural angular frequency, ascending [rad/s] (n_mode) */
-    double *
-        shape; /* x' m x = 1; the largest of tip v, u, theta * chord is positive (n_dof x n_mode) */
+    /* Modal mass one, that of the elements' internal freedoms (beam_inner_inertia) included; the
+     * largest of tip v, u, theta * chord is positive (n_dof x n_mode). */
+    double *shape;
     double *share; /* of the kinetic energy (MODE_SHARES x n_mode) */
 };
 
