@@ -22,6 +22,15 @@ struct polar {
     int *bucket; /* (n_bucket) */
 };
 
+struct stall_def stall_def_default(void)
+{
+    return (struct stall_def){.lift_slope = 2.0 * NUM_PI,
+                              .lift_centre = 0.25,
+                              .pressure_lag = 1.7,
+                              .boundary_layer_lag = 3.0,
+                              .vortex_lag = 6.0};
+}
+
 void polar_def_done(struct polar_def *def)
 {
     free(def->alpha);
@@ -283,6 +292,11 @@ void polar_lift(const struct polar *p, int n, const double *alpha, const double 
         cl[j] = value;
         cl_slope[j] = outside ? 0.0 : slope;
     }
+}
+
+struct polar_range polar_linear_range(const struct polar *p)
+{
+    return (struct polar_range){.from = p->linear_from, .to = p->linear_to};
 }
 
 bool polar_is_stalled(const struct polar *p, double alpha)

@@ -12,6 +12,19 @@
 
 #include <stdbool.h>
 
+/* What the dynamic stall model takes besides the table (core/aero/dynamic_stall.h). */
+struct stall_def {
+    double lift_slope;  /* of potential flow [1/rad], > 0 */
+    double lift_centre; /* where its lift acts, ahead of mid-chord, in chords */
+    /* Time constants in c/(2V), > 0: of the pressure at the nose, of the boundary layer, and of the
+     * vortex that carries the lift of stalling away. */
+    double pressure_lag, boundary_layer_lag, vortex_lag;
+};
+
+/* Thin-aerofoil theory (2 pi at a quarter of the chord) and the time constants of Leishman &
+ * Beddoes 1989 at low Mach number: 1.7, 3 and 6. */
+struct stall_def stall_def_default(void);
+
 struct polar_def {
     char name[LIMIT_NAME];
     char hash[LIMIT_HASH]; /* content hash of the table, filled by the border; may be "" */
@@ -23,6 +36,7 @@ struct polar_def {
     double *cm;     /* moment about mid-chord, nose-up positive (n_alpha x n_plunge) */
     /* Range of attached, linear behaviour: beyond it an oscillation counts as stalled. [rad] */
     double linear_from, linear_to;
+    struct stall_def stall;
 };
 
 /* Appends what is wrong with the table. */
@@ -50,7 +64,12 @@ struct polar_value polar_at(const struct polar *p, double alpha, double plunge);
 void polar_lift(const struct polar *p, int n, const double *alpha, const double *plunge, double *cl,
                 double *cl_slope);
 
-/* True where the angle is outside the linear range stated by the table. */
+/* The linear range stated by the table [rad]. */
+struct polar_range {
+    double from, to;
+};
+struct polar_range polar_linear_range(const struct polar *p);
+/* True where the angle is outside the linear range. */
 bool polar_is_stalled(const struct polar *p, double alpha);
 
 #endif

@@ -118,7 +118,8 @@ struct polar_def fixture_linear_polar(double lift_slope, double moment_slope, do
                           .cd = doubles(ANGLES),
                           .cm = doubles(ANGLES),
                           .linear_from = -limit,
-                          .linear_to = limit};
+                          .linear_to = limit,
+                          .stall = stall_def_default()};
     for (int i = 0; i < ANGLES; i++) {
         p.alpha[i] = limit * (2.0 * i / (ANGLES - 1) - 1.0);
         p.cl[i] = lift_slope * p.alpha[i];
