@@ -90,6 +90,7 @@ bool entry_read_polar(struct reader *r, const struct cJSON *json, struct entry_s
     /* The default: one row, at plunge zero. */
     e->def.plunge = calloc(1, sizeof *e->def.plunge);
     e->def.n_plunge = e->def.plunge != NULL ? 1 : 0;
+    e->def.stall = stall_def_default();
     const int before = r->problems->total;
     if (e->def.plunge == NULL) {
         reader_no_memory(r);

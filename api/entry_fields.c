@@ -76,6 +76,7 @@ static const struct field_range positive = {.min = 0.0, .max = INFINITY, .above_
 static const struct field_range poisson = {
     .min = -1.0, .max = 1.0, .above_min = true, .below_max = true};
 static const struct field_range angle = {.min = -180.0, .max = 180.0};
+static const struct field_range centre = {.min = -0.5, .max = 0.5};
 static const struct field_range hidden = {.min = 1, .max = LIMIT_NET_HIDDEN};
 
 static const char *const activation_names[] = {"tanh", NULL};
@@ -151,6 +152,21 @@ const struct field material_fields[] = {
         .offset = offsetof(struct polar_entry, def.member_), .unit = FIELD_DEGREE, .range = &angle \
     }
 
+#define STALL_NUMBER(key_, member_, range_)                                                        \
+    {                                                                                              \
+        .key = (key_), .kind = FIELD_NUMBER, .kinds = ENTRY_TABLE,                                 \
+        .offset = offsetof(struct polar_entry, def.stall.member_), .range = (range_)               \
+    }
+
+static const struct field stall_fields[] = {
+    STALL_NUMBER("lift_slope_per_rad", lift_slope, &positive),
+    STALL_NUMBER("lift_centre_c", lift_centre, &centre),
+    STALL_NUMBER("pressure_lag", pressure_lag, &positive),
+    STALL_NUMBER("boundary_layer_lag", boundary_layer_lag, &positive),
+    STALL_NUMBER("vortex_lag", vortex_lag, &positive),
+    {0},
+};
+
 /* Axes before tables: the shape of a table is checked against them. */
 const struct field polar_fields[] = {
     {.key = "name",
@@ -176,6 +192,7 @@ const struct field polar_fields[] = {
     POLAR_TABLE(cm),
     POLAR_ANGLE("linear_from_deg", linear_from),
     POLAR_ANGLE("linear_to_deg", linear_to),
+    {.key = "dynamic_stall", .kind = FIELD_OBJECT, .kinds = ENTRY_TABLE, .fields = stall_fields},
     {0},
 };
 

@@ -14,8 +14,9 @@
 #include <stdbool.h>
 
 enum case_kind { CASE_SIMULATION, CASE_MODES, CASE_SECTION, CASE_STATIC, CASE_KIND_COUNT };
-/* What is added to the steady polar: nothing; a network; the wake's lag and apparent mass. */
-enum dynamic_type { DYNAMIC_NONE, DYNAMIC_NETWORK, DYNAMIC_ATTACHED };
+/* What is added to the steady polar: nothing; a network; the wake's lag and apparent mass; these
+ * and the lags of stall. */
+enum dynamic_type { DYNAMIC_NONE, DYNAMIC_NETWORK, DYNAMIC_ATTACHED, DYNAMIC_STALL };
 enum integrator { INTEGRATOR_EXPONENTIAL, INTEGRATOR_RK4_ADAPTIVE };
 enum start_type { START_REST, START_EQUILIBRIUM, START_AMPLITUDES };
 

@@ -88,12 +88,33 @@ static void steady_coefficients(const struct model *m, struct workspace *w)
     for (int i = 0; i < w->n_station; i++) {
         const struct polar_value v = polar_at(m->polar, w->alpha[i], w->plunge[i]);
         w->cl[i] = v.cl;
-        /* The lift is normal to the local stream, which the induced angle tilts. */
-        w->cd[i] = v.cd + v.cl * w->induced[i];
+        w->cd[i] = v.cd;
         w->cm[i] = v.cm;
         w->counters.outside_polar += v.outside;
         w->any_outside |= v.outside;
         w->any_stalled |= polar_is_stalled(m->polar, w->alpha[i]);
+    }
+}
+
+/* The coefficients of a section whose boundary layer lags. */
+static void stall_increment(const struct model *m, struct workspace *w, bool steady)
+{
+    if (m->stall.n == 0) {
+        return;
+    }
+    if (steady) {
+        dynamic_stall_steady(&m->stall, w->alpha, w->plunge, w->stall);
+    } else {
+        dynamic_stall_step(&m->stall, w->alpha, w->plunge, w->stall);
+    }
+    dynamic_stall_coefficients(&m->stall, w->alpha, w->stall, w->cl, w->cd, w->cm);
+}
+
+/* The lift is normal to the local stream, which the induced angle tilts. */
+static void induced_drag(struct workspace *w)
+{
+    for (int i = 0; i < w->n_station; i++) {
+        w->cd[i] += w->cl[i] * w->induced[i];
     }
 }
 
@@ -243,6 +264,8 @@ void loads_evaluate(const struct model *m, struct workspace *w, bool steady)
     wake_lag(m, w, steady);
     solve_induced(m, w);
     steady_coefficients(m, w);
+    stall_increment(m, w, steady);
+    induced_drag(w);
     network_increment(m, w, steady);
     pitch_rate_increment(m, w);
     modal_loads(m, w);

@@ -262,11 +262,16 @@ static enum status build_aero(struct model *m)
         st = lifting_line_init(m->n_station, b->length, m->chord, a->walls, a->width, a->tolerance,
                                a->iterations_max, &m->lifting_line);
     }
-    if (st == ST_OK && a->dynamic == DYNAMIC_ATTACHED) {
+    if (st == ST_OK && a->dynamic == DYNAMIC_STALL) {
+        st = dynamic_stall_init(m->n_station, m->chord, m->def.flow.speed, m->def.solver.time_step,
+                                m->polar, &a->polar->stall, &m->stall);
+    }
+    const bool wake_lags = a->dynamic == DYNAMIC_ATTACHED || a->dynamic == DYNAMIC_STALL;
+    if (st == ST_OK && wake_lags) {
         st = attached_init(m->n_station, m->chord, m->def.flow.speed, m->def.solver.time_step,
                            &m->attached);
     }
-    if (st == ST_OK && a->dynamic == DYNAMIC_ATTACHED) {
+    if (st == ST_OK && wake_lags) {
         st = apparent_mass_apply(m);
     }
     return st;
@@ -309,6 +314,7 @@ void model_done(struct model *m)
     network_destroy(m->network);
     lifting_line_done(&m->lifting_line);
     attached_done(&m->attached);
+    dynamic_stall_done(&m->stall);
     free(m->omega2);
     free(m->tip);
     free(m->to_vacuo);

@@ -5,6 +5,7 @@
 #define AEROM_CORE_COUPLING_MODEL_H
 
 #include "core/aero/attached.h"
+#include "core/aero/dynamic_stall.h"
 #include "core/case_def.h"
 #include "core/structure/centres.h"
 #include "core/structure/modes.h"
@@ -23,6 +24,7 @@ struct model {
     struct network *network;          /* NULL without one */
     struct lifting_line lifting_line; /* n = 0 without one */
     struct attached attached;         /* n = 0 without a wake that lags */
+    struct dynamic_stall stall;       /* n = 0 without; it has a wake that lags too */
     int n_mode;
     int n_station;           /* middles of equal parts of the span */
     double station_length;   /* [m] */

@@ -47,6 +47,7 @@ static enum status allocate(const struct model *m, struct workspace *w)
         {&w->alpha_wake, ns},
         {&w->alpha, ns},
         {&w->induced, ns},
+        {&w->stall, m->stall.n > 0 ? ns * STALL_ARRAYS : 0},
         {&w->net_in, ns * NET_IN_COUNT},
         {&w->net_out, ns * NET_OUT_COUNT},
         {&w->cl, ns},

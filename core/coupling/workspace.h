@@ -29,6 +29,7 @@ struct workspace {
     double *alpha_wake;        /* alpha_34 as far as the wake lets it act, else unused [rad] */
     double *alpha;             /* effective: less the induced angle [rad] */
     double *induced;           /* w_i/V [rad] */
+    double *stall;             /* states of stall and their targets (n_station x STALL_ARRAYS) */
     double *net_in;            /* inputs of the network  (n_station x NET_IN_COUNT) */
     double *net_out;           /* increments of c_l c_m c_d (n_station x NET_OUT_COUNT) */
     double *cl, *cd, *cm;      /* total coefficients; cd holds profile and induced drag */

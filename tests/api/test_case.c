@@ -86,7 +86,8 @@ static void assert_stable(struct fixture *f, const char *json)
 #define OWN_POLAR                                                                                  \
     "\"polars\":[{\"name\":\"mine\",\"provenance\":{\"by\":[1,0.1]},\"alpha_deg\":[-10,0,12.3],"   \
     "\"plunge_c\":[0,0.5],\"cl\":[[-1,0,1],[-1,0,1.1]],\"cd\":[[0,0,0],[0,0,0]],"                  \
-    "\"cm\":[[0,0,0],[0,0,0.2]],\"linear_from_deg\":-5,\"linear_to_deg\":5.7}]"
+    "\"cm\":[[0,0,0],[0,0,0.2]],\"linear_from_deg\":-5,\"linear_to_deg\":5.7,"                     \
+    "\"dynamic_stall\":{\"lift_centre_c\":0.2,\"vortex_lag\":4}}]"
 #define OWN_NETWORK                                                                                \
     "\"networks\":[{\"name\":\"net\",\"description\":\"two\",\"activation\":\"tanh\","             \
     "\"inputs\":[\"delta_alpha\",\"alpha_rate\"],\"outputs\":[\"cl\"],\"hidden\":3,"               \
@@ -113,6 +114,9 @@ static void test_full_case(void **state)
     assert_int_equal(def->aero.polar->n_plunge, 2);
     assert_near_abs(def->aero.polar->cl[5], 1.1, 0.0);
     assert_near_abs(def->aero.polar->alpha[2], num_rad(12.3), 0.0);
+    assert_near_abs(def->aero.polar->stall.lift_slope, 2.0 * NUM_PI, 0.0); /* the default */
+    assert_near_abs(def->aero.polar->stall.lift_centre, 0.2, 0.0);
+    assert_near_abs(def->aero.polar->stall.vortex_lag, 4.0, 0.0);
     assert_int_equal(def->aero.network->n_hidden, 3);
     assert_near_abs(def->aero.network->w1[3], 4.0, 0.0);
     assert_near_abs(def->aero.network->w2[2], 0.5, 0.0);
@@ -378,6 +382,14 @@ static const struct bad bad_definitions[] = {
     {MODES_WITH("\"polars\":[{\"name\":\"p\",\"alpha_deg\":[0,\"1\"],\"cl\":[[0,0]],"
                 "\"cd\":[[0,0]],\"cm\":[[0,0]],\"linear_from_deg\":0,\"linear_to_deg\":1}]"),
      "/polars/0/alpha_deg/1", "wrong_type"},
+    {MODES_WITH("\"polars\":[{\"name\":\"p\",\"alpha_deg\":[0,1],\"cl\":[[0,1]],"
+                "\"cd\":[[0,0]],\"cm\":[[0,0]],\"linear_from_deg\":0,\"linear_to_deg\":1,"
+                "\"dynamic_stall\":{\"pressure_lag\":0}}]"),
+     "/polars/0/dynamic_stall/pressure_lag", "out_of_range"},
+    {MODES_WITH("\"polars\":[{\"name\":\"p\",\"alpha_deg\":[0,1],\"cl\":[[0,1]],"
+                "\"cd\":[[0,0]],\"cm\":[[0,0]],\"linear_from_deg\":0,\"linear_to_deg\":1,"
+                "\"dynamic_stall\":{\"lag\":1}}]"),
+     "/polars/0/dynamic_stall/lag", "unknown_key"},
     {MODES_WITH("\"networks\":[{\"name\":\"n\",\"activation\":\"relu\",\"inputs\":[\"alpha_rate\"],"
                 "\"outputs\":[\"cl\"],\"hidden\":1,\"input_offset\":[0],\"input_scale\":[1],"
                 "\"output_offset\":[0],\"output_scale\":[1],\"hull_min\":[0],\"hull_max\":[1],"

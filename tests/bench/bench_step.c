@@ -13,7 +13,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { HIDDEN = 50, INPUTS = 4, OUTPUTS = 2, STATIONS = 16, ROUNDS_MAX = 101 };
+enum { HIDDEN = 50, INPUTS = 4, OUTPUTS = 2, STATIONS = 16, ROUNDS_MAX = 101, VARIANTS = 8 };
 
 static double cpu_now(void)
 {
@@ -150,6 +150,47 @@ static void bench_network(const struct network_def *def, int rounds)
 }
 
 /* Reads the shipped paper case and gives its definition three dynamic set-ups. */
+/* The same case with and without its parts. */
+static void bench_variants(const struct case_def *def, const struct network_def *net, int rounds)
+{
+    static const struct {
+        const char *label;
+        bool lifting_line;
+        enum dynamic_type dynamic;
+        enum integrator integrator;
+    } row[VARIANTS] = {
+        {"quasi-steady, no lifting line", false, DYNAMIC_NONE, INTEGRATOR_EXPONENTIAL},
+        {"lifting line", true, DYNAMIC_NONE, INTEGRATOR_EXPONENTIAL},
+        {"lifting line, network", true, DYNAMIC_NETWORK, INTEGRATOR_EXPONENTIAL},
+        {"lifting line, network, rk4_adaptive", true, DYNAMIC_NETWORK, INTEGRATOR_RK4_ADAPTIVE},
+        {"lifting line, attached", true, DYNAMIC_ATTACHED, INTEGRATOR_EXPONENTIAL},
+        {"lifting line, dynamic_stall", true, DYNAMIC_STALL, INTEGRATOR_EXPONENTIAL},
+        {"attached, no lifting line", false, DYNAMIC_ATTACHED, INTEGRATOR_EXPONENTIAL},
+        {"dynamic_stall, no lifting line", false, DYNAMIC_STALL, INTEGRATOR_EXPONENTIAL},
+    };
+    struct case_def variant[VARIANTS];
+    for (int v = 0; v < VARIANTS; v++) {
+        variant[v] = *def;
+        variant[v].aero.lifting_line = row[v].lifting_line;
+        variant[v].aero.dynamic = row[v].dynamic;
+        variant[v].aero.network = row[v].dynamic == DYNAMIC_NETWORK ? net : NULL;
+        variant[v].solver.integrator = row[v].integrator;
+    }
+    double us[VARIANTS][ROUNDS_MAX];
+    long steps = 0;
+    for (int r = 0; r < rounds; r++) {
+        for (int v = 0; v < VARIANTS; v++) {
+            us[v][r] = run_once(&variant[v], &steps);
+        }
+    }
+    (void)printf("paper's case, %d elements, %d modes, %ld steps, median of %d rounds; record and "
+                 "damping included\n",
+                 variant[0].beam.elements, variant[0].solver.modes, steps, rounds);
+    for (int v = 0; v < VARIANTS; v++) {
+        (void)printf("%-38s %7.2f us/step\n", row[v].label, median(rounds, us[v]));
+    }
+}
+
 int main(int argc, char **argv)
 {
     int rounds = argc > 1 ? (int)strtol(argv[1], NULL, 10) : 11;
@@ -176,30 +217,7 @@ int main(int argc, char **argv)
     }
     struct network_def net;
     make_network(&net);
-    struct case_def variant[4];
-    static const char *const label[4] = {"quasi-steady, no lifting line", "lifting line",
-                                         "lifting line, network",
-                                         "lifting line, network, rk4_adaptive"};
-    for (int v = 0; v < 4; v++) {
-        variant[v] = *api_case_def(c);
-        variant[v].aero.lifting_line = v > 0;
-        variant[v].aero.dynamic = v > 1 ? DYNAMIC_NETWORK : DYNAMIC_NONE;
-        variant[v].aero.network = v > 1 ? &net : NULL;
-    }
-    variant[3].solver.integrator = INTEGRATOR_RK4_ADAPTIVE;
-    double us[4][ROUNDS_MAX];
-    long steps = 0;
-    for (int r = 0; r < rounds; r++) {
-        for (int v = 0; v < 4; v++) {
-            us[v][r] = run_once(&variant[v], &steps);
-        }
-    }
-    (void)printf("paper's case, %d elements, %d modes, %ld steps, median of %d rounds; record and "
-                 "damping included\n",
-                 variant[0].beam.elements, variant[0].solver.modes, steps, rounds);
-    for (int v = 0; v < 4; v++) {
-        (void)printf("%-38s %7.2f us/step\n", label[v], median(rounds, us[v]));
-    }
+    bench_variants(api_case_def(c), &net, rounds);
     bench_network(&net, rounds);
     api_case_destroy(c);
     library_destroy(lib);

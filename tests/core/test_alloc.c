@@ -70,8 +70,9 @@ static void the_counter_counts(void **state)
     assert_int_equal(atomic_load(&allocations) - before, 2);
 }
 
-/* Marches through stall with a network and the lifting line, which then factors anew often. */
-static long allocations_of_a_march(enum integrator integrator, int elements)
+/* Marches through stall with the lifting line, which then factors anew often. */
+static long allocations_of_a_march(enum integrator integrator, enum dynamic_type dynamic,
+                                   int elements)
 {
     struct polar_def polar = fixture_linear_polar(5.0, 0.8, 0.05, 0.3);
     struct network_def network = fixture_network(50, 0.05, 3);
@@ -84,7 +85,7 @@ static long allocations_of_a_march(enum integrator integrator, int elements)
     polar.cl[0] = -0.8; /* bends at 0.15: the Jacobian changes */
     polar.cl[4] = 0.8;
     fixture_paper_beam(-45.0, &polar, &def);
-    def.aero.dynamic = DYNAMIC_NETWORK;
+    def.aero.dynamic = dynamic;
     def.aero.network = &network;
     def.beam.elements = elements;
     def.flow.incidence = num_rad(8.0);
@@ -114,8 +115,12 @@ static void the_time_loop_allocates_nothing(void **state)
         skip();
     }
     for (int elements = 4; elements <= 64; elements *= 4) {
-        assert_int_equal(allocations_of_a_march(INTEGRATOR_EXPONENTIAL, elements), 0);
-        assert_int_equal(allocations_of_a_march(INTEGRATOR_RK4_ADAPTIVE, elements), 0);
+        assert_int_equal(allocations_of_a_march(INTEGRATOR_EXPONENTIAL, DYNAMIC_NETWORK, elements),
+                         0);
+        assert_int_equal(allocations_of_a_march(INTEGRATOR_RK4_ADAPTIVE, DYNAMIC_NETWORK, elements),
+                         0);
+        assert_int_equal(allocations_of_a_march(INTEGRATOR_EXPONENTIAL, DYNAMIC_STALL, elements),
+                         0);
     }
 }
 

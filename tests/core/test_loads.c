@@ -185,6 +185,84 @@ static void the_mean_slides(void **state)
     finish(&s);
 }
 
+/* Bent at 0.3 rad: at the incidence of the next test the section is stalled. */
+static void with_stall(struct setting *s)
+{
+    s->polar.cl[0] = -0.9;
+    s->polar.cl[4] = 0.9;
+    s->polar.cm[4] = -0.1;
+    s->polar.cd[4] = 0.3;
+    s->polar.linear_from = -0.3;
+    s->polar.linear_to = 0.3;
+    s->def.aero.lifting_line = true;
+    s->def.aero.dynamic = DYNAMIC_STALL;
+    s->def.flow.incidence = 0.5;
+}
+
+static void without_dynamics(struct setting *s)
+{
+    with_stall(s);
+    s->def.aero.dynamic = DYNAMIC_NONE;
+}
+
+/* Steady flow is the polar's, with the lifting line too and past stall, and stays so. */
+static void steady_stall_is_the_polar(void **state)
+{
+    (void)state;
+    struct setting s, reference;
+    start(with_stall, &s);
+    start(without_dynamics, &reference);
+    loads_evaluate(&reference.model, &reference.w, true);
+    for (int step = 0; step < 50; step++) {
+        loads_evaluate(&s.model, &s.w, step == 0);
+    }
+    assert_true(s.w.any_stalled);
+    for (int i = 0; i < s.w.n_station; i++) {
+        assert_near_abs(s.w.cl[i], reference.w.cl[i], 1e-9);
+        assert_near_abs(s.w.cd[i], reference.w.cd[i], 1e-9);
+        assert_near_abs(s.w.cm[i], reference.w.cm[i], 1e-9);
+    }
+    finish(&s);
+    finish(&reference);
+}
+
+static void straight_with_stall(struct setting *s)
+{
+    s->polar.stall.lift_slope = 5.0;
+    s->polar.stall.lift_centre = 0.8 / 5.0;
+    s->def.aero.dynamic = DYNAMIC_STALL;
+}
+
+static void straight_attached(struct setting *s)
+{
+    s->def.aero.dynamic = DYNAMIC_ATTACHED;
+}
+
+/* A polar that does not bend has no stall to lag: the answers are those of attached flow. */
+static void no_stall_is_attached_flow(void **state)
+{
+    (void)state;
+    struct setting s, attached;
+    start(straight_with_stall, &s);
+    start(straight_attached, &attached);
+    for (int step = 0; step < 200; step++) {
+        for (int j = 0; j < 2; j++) {
+            const double phase = 0.05 * step + j;
+            s.w.q[j] = attached.w.q[j] = 1e-3 * cos(phase);
+            s.w.qd[j] = attached.w.qd[j] = 0.05 * sin(phase);
+        }
+        loads_evaluate(&s.model, &s.w, step == 0);
+        loads_evaluate(&attached.model, &attached.w, step == 0);
+        for (int i = 0; i < s.w.n_station; i++) {
+            assert_near_abs(s.w.cl[i], attached.w.cl[i], 1e-12);
+            assert_near_abs(s.w.cm[i], attached.w.cm[i], 1e-12);
+            assert_near_abs(s.w.cd[i], attached.w.cd[i], 1e-12);
+        }
+    }
+    finish(&s);
+    finish(&attached);
+}
+
 static int setup(void **state)
 {
     (void)state;
@@ -201,6 +279,8 @@ int main(void)
         cmocka_unit_test(outside_and_stalled_are_counted),
         cmocka_unit_test(the_network_sees_scaled_rates),
         cmocka_unit_test(the_mean_slides),
+        cmocka_unit_test(steady_stall_is_the_polar),
+        cmocka_unit_test(no_stall_is_attached_flow),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }
