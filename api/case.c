@@ -29,6 +29,15 @@ bool case_kind_parse(const char *name, enum case_kind *out)
     return index >= 0;
 }
 
+bool dynamic_type_parse(const char *name, enum dynamic_type *out)
+{
+    const int index = field_name_index(dynamic_names, name);
+    if (index >= 0) {
+        *out = (enum dynamic_type)index;
+    }
+    return index >= 0;
+}
+
 /* The bit of the document's kind, which decides what is required. */
 static unsigned kind_of(const struct cJSON *tree)
 {

@@ -15,6 +15,8 @@ struct cJSON;
 /* "simulation" "modes" "section" "static". */
 const char *case_kind_name(enum case_kind kind);
 bool case_kind_parse(const char *name, enum case_kind *out);
+/* "none" "network" "attached" "dynamic_stall". */
+bool dynamic_type_parse(const char *name, enum dynamic_type *out);
 
 /* Parses, fills defaults, checks. On failure *out is unchanged and *problems holds every problem
  * found (at most FAILURE_LIST_MAX), each with its JSON pointer prefixed by `prefix` ("" for a

@@ -30,11 +30,11 @@ const char *const case_kind_names[] = {[CASE_SIMULATION] = "simulation",
                                        [CASE_SECTION] = "section",
                                        [CASE_STATIC] = "static",
                                        NULL};
-static const char *const dynamic_names[] = {[DYNAMIC_NONE] = "none",
-                                            [DYNAMIC_NETWORK] = "network",
-                                            [DYNAMIC_ATTACHED] = "attached",
-                                            [DYNAMIC_STALL] = "dynamic_stall",
-                                            NULL};
+const char *const dynamic_names[] = {[DYNAMIC_NONE] = "none",
+                                     [DYNAMIC_NETWORK] = "network",
+                                     [DYNAMIC_ATTACHED] = "attached",
+                                     [DYNAMIC_STALL] = "dynamic_stall",
+                                     NULL};
 static const char *const wall_names[] = {
     [WALLS_NONE] = "none", [WALLS_ROOT] = "root", [WALLS_ROOT_AND_FAR] = "root_and_far", NULL};
 static const char *const integrator_names[] = {

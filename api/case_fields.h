@@ -29,6 +29,7 @@ enum case_group {
 };
 
 extern const char *const case_kind_names[]; /* ends with NULL */
+extern const char *const dynamic_names[];   /* of enum dynamic_type */
 extern const struct field case_fields[];    /* of struct api_case; r->context is the case itself */
 
 /* Section i of the beam: its only one, or those of its stations; NULL past the last. */

@@ -104,6 +104,27 @@ bool entry_read_polar(struct reader *r, const struct cJSON *json, struct entry_s
            hash_table(r, polar_fields, e, e->def.hash);
 }
 
+enum status entry_parse_polar(const char *text, size_t size, struct entry_set *set,
+                              struct failure_list *problems)
+{
+    struct cJSON *tree = NULL;
+    struct failure fail = {0};
+    struct reader r;
+    reader_init(&r, "", problems);
+    const enum status st = json_parse(text, size, &tree, &fail);
+    if (st != ST_OK) {
+        *failure_add(problems) = fail;
+        return st;
+    }
+    json_check(&r, tree);
+    const bool read = problems->total == 0 && entry_read_polar(&r, tree, set);
+    json_free(tree);
+    if (read) {
+        return ST_OK;
+    }
+    return reader_ran_out_of_memory(problems) ? ST_NO_MEMORY : ST_INVALID;
+}
+
 bool entry_read_network(struct reader *r, const struct cJSON *json, struct entry_set *set)
 {
     void *array = set->network;

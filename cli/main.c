@@ -1,5 +1,6 @@
 /* aerom: computes a case in this process, or talks to a daemon. */
 #include "cli/command.h"
+#include "cli/loop.h"
 #include "cli/remote.h"
 #include "cli/run.h"
 
@@ -14,6 +15,10 @@ static int help_main(int argc, char **argv);
 static const struct command commands[] = {
     {"run", run_main, "CASE.json [--series FILE.csv] [--document NAME] [--text]",
      "compute a case here and print its summary; CASE '-' reads standard input"},
+    {"loop", loop_main,
+     "--frequency F [--polar NAME|FILE.json] [--dynamic TYPE] [--network NAME] [--mean-deg A]\n"
+     "      [--amplitude-deg A] [--plunge W] [--phase-deg A] [--cycles N] [--steps N]",
+     "coefficients of a section in prescribed pitch and plunge, as CSV; the last line is the work"},
     {"submit", remote_submit, "CASE.json... [--wait]", "hand cases to the daemon, print their ids"},
     {"wait", remote_wait, "ID... [--timeout SECONDS]", "wait until jobs are finished"},
     {"get", remote_get, "ID [job|summary|case|series|damping|modes|section|static] [--csv]",

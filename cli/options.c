@@ -4,26 +4,77 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const struct option long_options[] = {
-    {"url", required_argument, NULL, 'u'},     {"state", required_argument, NULL, 's'},
-    {"kind", required_argument, NULL, 'k'},    {"limit", required_argument, NULL, 'n'},
-    {"series", required_argument, NULL, 'o'},  {"document", required_argument, NULL, 'd'},
-    {"timeout", required_argument, NULL, 't'}, {"wait", no_argument, NULL, 'w'},
-    {"csv", no_argument, NULL, 'c'},           {"json", no_argument, NULL, 'j'},
-    {"text", no_argument, NULL, 'x'},          {NULL, 0, NULL, 0},
+    {"url", required_argument, NULL, 'u'},
+    {"state", required_argument, NULL, 's'},
+    {"kind", required_argument, NULL, 'k'},
+    {"limit", required_argument, NULL, 'n'},
+    {"series", required_argument, NULL, 'o'},
+    {"document", required_argument, NULL, 'd'},
+    {"polar", required_argument, NULL, 'P'},
+    {"dynamic", required_argument, NULL, 'D'},
+    {"network", required_argument, NULL, 'N'},
+    {"mean-deg", required_argument, NULL, 'm'},
+    {"amplitude-deg", required_argument, NULL, 'a'},
+    {"frequency", required_argument, NULL, 'f'},
+    {"plunge", required_argument, NULL, 'l'},
+    {"phase-deg", required_argument, NULL, 'p'},
+    {"cycles", required_argument, NULL, 'y'},
+    {"steps", required_argument, NULL, 'e'},
+    {"timeout", required_argument, NULL, 't'},
+    {"wait", no_argument, NULL, 'w'},
+    {"csv", no_argument, NULL, 'c'},
+    {"json", no_argument, NULL, 'j'},
+    {"text", no_argument, NULL, 'x'},
+    {NULL, 0, NULL, 0},
 };
 
-static bool parse_seconds(const char *text, double *out)
+/* Where an option goes. */
+struct target {
+    int letter;
+    enum { TEXT, NUMBER, SECONDS, FLAG } kind;
+    size_t offset;
+};
+#define TARGET(letter_, kind_, member_)                                                            \
+    {                                                                                              \
+        .letter = (letter_), .kind = (kind_), .offset = offsetof(struct options, member_)          \
+    }
+static const struct target targets[] = {
+    TARGET('u', TEXT, url),
+    TARGET('s', TEXT, state),
+    TARGET('k', TEXT, kind),
+    TARGET('n', TEXT, limit),
+    TARGET('o', TEXT, series),
+    TARGET('d', TEXT, document),
+    TARGET('P', TEXT, polar),
+    TARGET('D', TEXT, dynamic),
+    TARGET('N', TEXT, network),
+    TARGET('m', NUMBER, mean_deg),
+    TARGET('a', NUMBER, amplitude_deg),
+    TARGET('f', NUMBER, frequency),
+    TARGET('l', NUMBER, plunge),
+    TARGET('p', NUMBER, phase_deg),
+    TARGET('y', NUMBER, cycles),
+    TARGET('e', NUMBER, steps),
+    TARGET('t', SECONDS, timeout_s),
+    TARGET('w', FLAG, wait),
+    TARGET('c', FLAG, csv),
+    TARGET('j', FLAG, json),
+    TARGET('x', FLAG, text),
+};
+
+static bool parse_number(const char *text, bool seconds, double *out)
 {
     char *end = NULL;
     errno = 0;
     const double value = strtod(text, &end);
-    if (end == text || *end != '\0' || errno != 0 || !(value >= 0.0) || isinf(value)) {
-        (void)fprintf(stderr, "aerom: '%s' is no number of seconds\n", text);
+    if (end == text || *end != '\0' || errno != 0 || !isfinite(value) || (seconds && value < 0.0)) {
+        (void)fprintf(stderr, "aerom: '%s' is no number%s\n", text, seconds ? " of seconds" : "");
         return false;
     }
     *out = value;
@@ -32,43 +83,25 @@ static bool parse_seconds(const char *text, double *out)
 
 static bool take(int letter, const char *value, struct options *o)
 {
-    switch (letter) {
-    case 'u':
-        o->url = value;
-        break;
-    case 's':
-        o->state = value;
-        break;
-    case 'k':
-        o->kind = value;
-        break;
-    case 'n':
-        o->limit = value;
-        break;
-    case 'o':
-        o->series = value;
-        break;
-    case 'd':
-        o->document = value;
-        break;
-    case 't':
-        return parse_seconds(value, &o->timeout_s);
-    case 'w':
-        o->wait = true;
-        break;
-    case 'c':
-        o->csv = true;
-        break;
-    case 'j':
-        o->json = true;
-        break;
-    case 'x':
-        o->text = true;
-        break;
-    default:
-        return false;
+    for (size_t i = 0; i < sizeof targets / sizeof targets[0]; i++) {
+        if (targets[i].letter != letter) {
+            continue;
+        }
+        void *place = (char *)o + targets[i].offset;
+        switch (targets[i].kind) {
+        case TEXT:
+            *(const char **)place = value;
+            return true;
+        case FLAG:
+            *(bool *)place = true;
+            return true;
+        case NUMBER:
+        case SECONDS:
+        default:
+            return parse_number(value, targets[i].kind == SECONDS, place);
+        }
     }
-    return true;
+    return false;
 }
 
 bool options_parse(int argc, char **argv, const char *allowed, int least, int most,
@@ -76,6 +109,13 @@ bool options_parse(int argc, char **argv, const char *allowed, int least, int mo
 {
     const char *environment = getenv("AEROM_URL");
     struct options o = {.url = environment != NULL ? environment : "http://127.0.0.1:8080",
+                        .mean_deg = NAN,
+                        .amplitude_deg = NAN,
+                        .frequency = NAN,
+                        .plunge = NAN,
+                        .phase_deg = NAN,
+                        .cycles = NAN,
+                        .steps = NAN,
                         .timeout_s = INFINITY};
     int letter = 0;
     while ((letter = getopt_long(argc, argv, "", long_options, NULL)) != -1) {

@@ -13,6 +13,17 @@ struct options {
     const char *limit;    /* -n */
     const char *series;   /* -o: file for the series */
     const char *document; /* -d */
+    const char *polar;    /* -P */
+    const char *dynamic;  /* -D */
+    const char *network;  /* -N */
+    /* Numbers, NaN when not given. */
+    double mean_deg;      /* -m */
+    double amplitude_deg; /* -a */
+    double frequency;     /* -f */
+    double plunge;        /* -l */
+    double phase_deg;     /* -p */
+    double cycles;        /* -y */
+    double steps;         /* -e */
     double timeout_s;     /* -t, infinite when not given */
     bool wait;            /* -w */
     bool csv;             /* -c */

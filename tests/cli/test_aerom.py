@@ -49,7 +49,7 @@ class Arguments(unittest.TestCase):
     def test_help_names_every_command(self):
         result = aerom("help")
         self.assertEqual(result.returncode, 0)
-        for command in ("run", "submit", "wait", "get", "show", "cancel", "list"):
+        for command in ("run", "loop", "submit", "wait", "get", "show", "cancel", "list"):
             self.assertIn("aerom %s " % command, result.stdout)
 
     def test_wrong_arguments_end_with_2_and_the_usage(self):
@@ -61,6 +61,70 @@ class Arguments(unittest.TestCase):
                 self.assertEqual(result.returncode, 2)
                 self.assertEqual(result.stdout, "")
                 self.assertIn("aerom", result.stderr)
+
+
+class Loop(unittest.TestCase):
+    """The flow works on the motion of the plate: through stall it feeds slow pitch, it damps fast."""
+
+    def loop(self, *arguments):
+        result = aerom("loop", *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        lines = result.stdout.splitlines()
+        self.assertRegex(lines[-1], r"^# work \S+ pitch \S+ plunge \S+ outside_polar \d+$")
+        rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(lines[:-1])]
+        return rows, float(lines[-1].split()[2])
+
+    def test_work_of_the_loop_is_the_integral(self):
+        rows, work = self.loop("--polar", "flat-plate-linear", "--dynamic", "attached",
+                               "--amplitude-deg", 2, "--frequency", 0.125, "--cycles", 20)
+        self.assertEqual(len(rows), 20 * 400 + 1)
+        last = rows[-401:]
+        area = sum(0.5 * (a["cm"] + b["cm"]) * math.radians(b["alpha_deg"] - a["alpha_deg"])
+                   for a, b in zip(last, last[1:]))
+        self.assertAlmostEqual(work, area, delta=1e-3 * abs(work))
+        # Theodorsen, k = pi f: work = pi amplitude^2 Im(c_m) = -0.3758 pi amplitude^2.
+        self.assertAlmostEqual(work, -0.3758 * math.pi * math.radians(2) ** 2, delta=0.01 * abs(work))
+
+    def test_energy_through_stall(self):
+        _, slow = self.loop("--dynamic", "dynamic_stall", "--mean-deg", 8, "--amplitude-deg", 6,
+                            "--frequency", 0.06)
+        _, fast = self.loop("--dynamic", "dynamic_stall", "--mean-deg", 5, "--amplitude-deg", 7,
+                            "--frequency", 0.25)
+        self.assertGreater(slow, 0.005)
+        self.assertLess(fast, -0.005)
+
+    def test_polar_of_a_file(self):
+        polar = json.loads((ROOT / "data" / "polars" / "plate-4pct-channel.json").read_text())
+        polar["dynamic_stall"] = {"lift_slope_per_rad": 9.5}
+        motion = ("--dynamic", "dynamic_stall", "--amplitude-deg", 3, "--frequency", 0.1)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "own.json"
+            path.write_text(json.dumps(polar), encoding="utf-8")
+            rows, _ = self.loop("--polar", path, *motion)
+            shipped, _ = self.loop(*motion)
+            self.assertNotEqual(rows[-1], shipped[-1])
+            path.write_text("{", encoding="utf-8")
+            self.assertEqual(aerom("loop", "--polar", path, *motion).returncode, 1)
+            polar["dynamic_stall"] = {"vortex_lag": -1}
+            path.write_text(json.dumps(polar), encoding="utf-8")
+            result = aerom("loop", "--polar", path, *motion)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("/dynamic_stall/vortex_lag", result.stderr)
+
+    def test_bad_motion(self):
+        for arguments, code, word in (
+                ((), 2, "usage"), (("--frequency", "fast"), 2, "fast"),
+                (("--frequency", 0), 1, "--frequency"), (("--frequency", 0.1, "--cycles", 1.5), 1,
+                                                         "--cycles"),
+                (("--frequency", 0.1, "--polar", "none"), 1, "--polar"),
+                (("--frequency", 0.1, "--dynamic", "stalled"), 1, "--dynamic"),
+                (("--frequency", 0.1, "--dynamic", "network"), 1, "--network"),
+                (("--frequency", 0.1, "--dynamic", "network", "--network", "n"), 1, "'n'"),
+                (("--frequency", 0.1, "--amplitude-deg", -1), 1, "--amplitude-deg")):
+            with self.subTest(arguments=arguments):
+                result = aerom("loop", *arguments)
+                self.assertEqual((result.returncode, result.stdout), (code, ""))
+                self.assertIn(word, result.stderr)
 
 
 class Run(unittest.TestCase):
