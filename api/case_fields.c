@@ -37,6 +37,7 @@ const char *const dynamic_names[] = {[DYNAMIC_NONE] = "none",
                                      NULL};
 static const char *const wall_names[] = {
     [WALLS_NONE] = "none", [WALLS_ROOT] = "root", [WALLS_ROOT_AND_FAR] = "root_and_far", NULL};
+static const char *const tip_names[] = {[TIP_INSET] = "inset", [TIP_NONE] = "none", NULL};
 static const char *const integrator_names[] = {
     [INTEGRATOR_EXPONENTIAL] = "exponential", [INTEGRATOR_RK4_ADAPTIVE] = "rk4_adaptive", NULL};
 static const char *const start_names[] = {[START_REST] = "rest",
@@ -103,6 +104,7 @@ static bool has_far_wall(const void *base)
 
 static const struct field lifting_line_fields[] = {
     CHOICE("walls", def.aero.walls, wall_names, .kinds = ALL),
+    CHOICE("tip_correction", def.aero.tip, tip_names, .kinds = ALL),
     NUMBER("width_m", def.aero.width, ALL, positive, .required = true, .applies = has_far_wall),
     NUMBER("tolerance", def.aero.tolerance, ALL, tolerance, .unit = 1.0),
     INTEGER("iterations_max", def.aero.iterations_max, ALL, iterations),

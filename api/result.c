@@ -94,6 +94,8 @@ static void write_counters(struct json_out *out, const struct sim_counters *n)
     json_key_integer(out, "not_converged", n->not_converged);
     json_key_integer(out, "lifting_line_iterations", n->lifting_line_iterations);
     json_key_number(out, "lifting_line_residual", n->lifting_line_residual);
+    json_key_integer(out, "lifting_line_regularised", n->lifting_line_regularised);
+    json_key_number(out, "lifting_line_smoothing", n->lifting_line_smoothing);
     json_key_integer(out, "inner_steps", n->inner_steps);
     json_object_end(out);
 }

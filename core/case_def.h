@@ -72,9 +72,10 @@ struct aero_def {
     const struct network_def *network; /* borrowed, NULL unless DYNAMIC_NETWORK */
     bool lifting_line;
     enum wall_images walls;
-    double width;       /* distance between the root wall and the far wall [m] */
-    double tolerance;   /* of the lifting line: largest |residual| in c_l, default 1e-9 */
-    int iterations_max; /* default 50 */
+    enum tip_correction tip; /* default TIP_INSET */
+    double width;            /* distance between the root wall and the far wall [m] */
+    double tolerance;        /* of the lifting line: largest |residual| in c_l, default 1e-9 */
+    int iterations_max;      /* default 50 */
 };
 
 struct solver_def {

@@ -272,6 +272,8 @@ static void report_march(const struct sim *s, const struct march *march, struct 
         .lifting_line_iterations = w->counters.lifting_line_iterations,
         .inner_steps = march->rk4.inner_steps,
         .lifting_line_residual = w->counters.lifting_line_residual,
+        .lifting_line_regularised = w->counters.lifting_line_regularised,
+        .lifting_line_smoothing = w->counters.lifting_line_smoothing,
     };
 }
 

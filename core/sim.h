@@ -62,8 +62,10 @@ struct sim_counters {
     long outside_hull;  /* station-steps outside the training hull of the network */
     long not_converged; /* steps whose lifting line missed its tolerance */
     long lifting_line_iterations;
-    long inner_steps;             /* of rk4_adaptive */
-    double lifting_line_residual; /* largest, in c_l */
+    long inner_steps;              /* of rk4_adaptive */
+    double lifting_line_residual;  /* largest, in c_l */
+    long lifting_line_regularised; /* steps with a viscosity, since lift fell with the angle */
+    double lifting_line_smoothing; /* largest change of a c_l by it */
 };
 
 struct sim_result {

@@ -7,16 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Downwash at y of a semi-infinite trailing vortex at y0, with all the images of one sign the walls
- * give it, times 4 pi. A vortex row of period p sums to (pi/p) cot(pi (y - y0)/p). */
-static double trailing(double y, double y0, double period)
-{
-    if (period > 0.0) {
-        return NUM_PI / period / tan(NUM_PI * (y - y0) / period);
-    }
-    return 1.0 / (y - y0);
-}
-
 /* Zeroed and aligned for the kernels; n a multiple of LANES. */
 static double *aligned_zeros(size_t n)
 {
@@ -27,48 +17,58 @@ static double *aligned_zeros(size_t n)
     return x;
 }
 
-enum status lifting_line_init(int n, double length, const double *chord, enum wall_images walls,
-                              double width, double tolerance, int iterations_max,
-                              struct lifting_line *out)
+/* B~ B and the sums of the rows of B. */
+static void fill_smooth(struct lifting_line *ll)
 {
-    assert(n >= 1);
-    assert(walls != WALLS_ROOT_AND_FAR || width > length);
-    struct lifting_line ll = {.n = n,
-                              .tolerance = tolerance,
-                              .iterations_max = iterations_max,
-                              .rows = simd_padded(n),
-                              .multiply = simd_gemv(simd_level_of_machine())};
-    ll.induced = aligned_zeros((size_t)ll.rows * (size_t)n);
-    if (ll.induced == NULL) {
-        return ST_NO_MEMORY;
-    }
-    const double h = length / n;
-    /* Two mirrors at distance W repeat the wing and its root image with the period 2 W. */
-    const double period = walls == WALLS_ROOT_AND_FAR ? 2.0 * width : 0.0;
+    const int n = ll->n;
     for (int j = 0; j < n; j++) {
         for (int i = 0; i < n; i++) {
-            const double y = (i + 0.5) * h, left = j * h, right = (j + 1) * h;
-            double sum = trailing(y, left, period) - trailing(y, right, period);
-            if (walls != WALLS_NONE) {
-                sum += trailing(y, -right, period) - trailing(y, -left, period);
-            }
-            /* w/V = Gamma/(4 pi V) sum with Gamma = V c c_l / 2 of element j. */
-            ll.induced[num_at(i, j, ll.rows)] = chord[j] * sum / (8.0 * NUM_PI);
+            ll->row_sum[i] += ll->induced[num_at(i, j, ll->rows)];
         }
     }
+    for (int j = 0; j < n; j++) {
+        const double *column = ll->induced + num_at(0, j, ll->rows);
+        double *out = ll->smooth + num_at(0, j, ll->rows);
+        ll->multiply(ll->rows, n, ll->induced, column, out);
+        for (int i = 0; i < n; i++) {
+            out[i] -= ll->row_sum[i] * column[i];
+        }
+    }
+}
+
+enum status lifting_line_init(const struct wing *wing, double tolerance, int iterations_max,
+                              struct lifting_line *out)
+{
+    assert(wing->n >= 1);
+    assert(wing->walls != WALLS_ROOT_AND_FAR || wing->width > wing->length);
+    struct lifting_line ll = {.n = wing->n,
+                              .tolerance = tolerance,
+                              .iterations_max = iterations_max,
+                              .rows = simd_padded(wing->n),
+                              .multiply = simd_gemv(simd_level_of_machine())};
+    const size_t rows = (size_t)ll.rows, matrix = rows * (size_t)ll.n;
+    ll.block = aligned_zeros(2 * matrix + rows);
+    if (ll.block == NULL) {
+        return ST_NO_MEMORY;
+    }
+    ll.induced = ll.block;
+    ll.smooth = ll.induced + matrix;
+    ll.row_sum = ll.smooth + matrix;
+    downwash_matrix(wing, ll.rows, ll.induced);
+    fill_smooth(&ll);
     *out = ll;
     return ST_OK;
 }
 
 void lifting_line_done(struct lifting_line *ll)
 {
-    free(ll->induced);
+    free(ll->block);
     *ll = (struct lifting_line){0};
 }
 
 enum status lifting_line_state_init(int n, struct lifting_line_state *out)
 {
-    enum { VECTORS = 10 };
+    enum { VECTORS = 11 };
     const size_t rows = (size_t)simd_padded(n), dense = (size_t)n * (size_t)n;
     const size_t total = (VECTORS + (size_t)n) * rows + 2 * dense;
     struct lifting_line_state s = {.n = n};
@@ -79,8 +79,9 @@ enum status lifting_line_state_init(int n, struct lifting_line_state *out)
         free(s.pivot);
         return ST_NO_MEMORY;
     }
-    double **const array[VECTORS] = {&s.cl,    &s.alpha, &s.induced, &s.previous, &s.older,
-                                     &s.trial, &s.table, &s.slope,   &s.residual, &s.step};
+    double **const array[VECTORS] = {&s.cl,       &s.alpha,    &s.induced, &s.rough,
+                                     &s.previous, &s.older,    &s.trial,   &s.table,
+                                     &s.slope,    &s.residual, &s.step};
     for (int i = 0; i < VECTORS; i++) {
         *array[i] = s.block + (size_t)i * rows;
     }
@@ -98,33 +99,59 @@ void lifting_line_state_done(struct lifting_line_state *s)
     *s = (struct lifting_line_state){0};
 }
 
-/* Residual c_l - C_l(alpha_g - B c_l) of s->cl; fills induced, alpha, table, slope, residual. */
-static double evaluate(const struct lifting_line *ll, const struct polar *p, const double *alpha_g,
-                       const double *plunge, struct lifting_line_state *s)
+static double largest_of(int n, const double *x)
 {
-    ll->multiply(ll->rows, s->n, ll->induced, s->cl, s->induced);
-    for (int i = 0; i < s->n; i++) {
-        s->alpha[i] = alpha_g[i] - s->induced[i];
-    }
-    polar_lift(p, s->n, s->alpha, plunge, s->table, s->slope);
     double largest = 0.0;
-    for (int i = 0; i < s->n; i++) {
-        s->residual[i] = s->cl[i] - s->table[i];
-        const double size = fabs(s->residual[i]);
+    for (int i = 0; i < n; i++) {
+        const double size = fabs(x[i]);
         /* A NaN must win, whatever the order of the comparison. */
         largest = size > largest || isnan(size) ? size : largest;
     }
     return largest;
 }
 
-/* Inverse of the Jacobian I + diag(C_l') B at the present iterate. */
+/* What a solver call works on. */
+struct problem {
+    const struct lifting_line *ll;
+    const struct polar *polar;
+    const double *alpha_g, *plunge;
+    struct lifting_line_state *s;
+    int iterations; /* spent so far */
+};
+
+/* Residual c_l - C_l(alpha) - eps B~ alpha of s->cl, alpha = alpha_g - B c_l; fills induced, alpha,
+ * table, slope, rough, residual. Returns the largest. */
+static double evaluate(const struct problem *p)
+{
+    const struct lifting_line *ll = p->ll;
+    struct lifting_line_state *s = p->s;
+    ll->multiply(ll->rows, s->n, ll->induced, s->cl, s->induced);
+    for (int i = 0; i < s->n; i++) {
+        s->alpha[i] = p->alpha_g[i] - s->induced[i];
+    }
+    polar_lift(p->polar, s->n, s->alpha, p->plunge, s->table, s->slope);
+    for (int i = 0; i < s->n; i++) {
+        s->residual[i] = s->cl[i] - s->table[i];
+    }
+    if (s->epsilon > 0.0) {
+        ll->multiply(ll->rows, s->n, ll->induced, s->alpha, s->rough);
+        for (int i = 0; i < s->n; i++) {
+            s->rough[i] -= ll->row_sum[i] * s->alpha[i];
+            s->residual[i] -= s->epsilon * s->rough[i];
+        }
+    }
+    return largest_of(s->n, s->residual);
+}
+
+/* Inverse of the Jacobian I + diag(C_l') B + eps B~ B at the present iterate. */
 static bool factor(const struct lifting_line *ll, struct lifting_line_state *s)
 {
     const int n = s->n;
     for (int j = 0; j < n; j++) {
         for (int i = 0; i < n; i++) {
+            const ptrdiff_t at = num_at(i, j, ll->rows);
             s->dense[num_at(i, j, n)] =
-                (i == j ? 1.0 : 0.0) + s->slope[i] * ll->induced[num_at(i, j, ll->rows)];
+                (i == j ? 1.0 : 0.0) + s->slope[i] * ll->induced[at] + s->epsilon * ll->smooth[at];
         }
     }
     s->factored = la_inverse_work(n, s->dense, s->pivot, s->work) == ST_OK;
@@ -137,36 +164,35 @@ static bool factor(const struct lifting_line *ll, struct lifting_line_state *s)
 
 /* One damped Newton step from an iterate of residual `before`: halves until the residual falls.
  * Returns the new residual; s->cl is the new iterate, or the old one if nothing helped. */
-static double damped_step(const struct lifting_line *ll, const struct polar *p,
-                          const double *alpha_g, const double *plunge, double before,
-                          struct lifting_line_state *s)
+static double damped_step(const struct problem *p, double before)
 {
-    enum { HALVINGS = 6 };
+    enum { HALVINGS = 8 };
+    struct lifting_line_state *s = p->s;
     const size_t bytes = (size_t)s->n * sizeof *s->cl;
-    ll->multiply(ll->rows, s->n, s->inverse, s->residual, s->step);
+    p->ll->multiply(p->ll->rows, s->n, s->inverse, s->residual, s->step);
     memcpy(s->trial, s->cl, bytes);
     double scale = 1.0;
     for (int k = 0; k <= HALVINGS; k++, scale *= 0.5) {
         for (int i = 0; i < s->n; i++) {
             s->cl[i] = s->trial[i] - scale * s->step[i];
         }
-        const double after = evaluate(ll, p, alpha_g, plunge, s);
+        const double after = evaluate(p);
         if (after < before) {
             return after;
         }
     }
     memcpy(s->cl, s->trial, bytes);
-    return evaluate(ll, p, alpha_g, plunge, s);
+    return evaluate(p);
 }
 
 /* First iterate: the table at the geometric angle, or the earlier solutions continued in a
  * constant, a line or a parabola, as many as there are. */
-static void start_values(const struct polar *p, const double *alpha_g, const double *plunge,
-                         struct lifting_line_state *s)
+static void start_values(const struct problem *p)
 {
     static const double weight[4][3] = {{0}, {1.0}, {2.0, -1.0}, {3.0, -3.0, 1.0}};
+    struct lifting_line_state *s = p->s;
     if (s->known == 0) {
-        polar_lift(p, s->n, alpha_g, plunge, s->cl, s->slope);
+        polar_lift(p->polar, s->n, p->alpha_g, p->plunge, s->cl, s->slope);
         return;
     }
     const double *a = weight[s->known];
@@ -178,36 +204,118 @@ static void start_values(const struct polar *p, const double *alpha_g, const dou
     }
 }
 
-/* Newton from the values start_values gives. */
-static struct lifting_line_report iterate(const struct lifting_line *ll, const struct polar *p,
-                                          const double *alpha_geometric, const double *plunge,
-                                          struct lifting_line_state *s)
+/* Newton from s->cl with the viscosity s->epsilon. Returns the largest residual left. */
+static double newton(struct problem *p)
 {
-    start_values(p, alpha_geometric, plunge, s);
-    struct lifting_line_report r = {.residual = evaluate(ll, p, alpha_geometric, plunge, s)};
+    struct lifting_line_state *s = p->s;
+    double residual = evaluate(p);
     bool fresh = false; /* is the inverse that of this iterate? */
-    while (r.residual > ll->tolerance && r.iterations < ll->iterations_max) {
+    while (residual > p->ll->tolerance && p->iterations < p->ll->iterations_max) {
         if (!s->factored) {
-            if (!factor(ll, s)) {
+            if (!factor(p->ll, s)) {
                 break;
             }
             fresh = true;
         }
-        const double before = r.residual;
-        r.residual = damped_step(ll, p, alpha_geometric, plunge, before, s);
-        r.iterations++;
+        const double before = residual;
+        residual = damped_step(p, before);
+        p->iterations++;
         /* An old inverse is kept as long as it cuts the residual to a third; a fresh one that does
          * not help at all has met a fold: give up and say so. */
-        if (r.residual >= before && fresh) {
+        if (residual >= before && fresh) {
             break;
         }
-        s->factored = r.residual <= 0.3 * before;
+        s->factored = residual <= 0.3 * before;
         fresh = false;
     }
-    r.converged = r.residual <= ll->tolerance;
-    /* A failed solution is no start for the next. */
-    s->known = r.converged ? (s->known < 3 ? s->known + 1 : 3) : 0;
-    return r;
+    return residual;
+}
+
+/* Twice the least that makes the solution one; a table that falls more steeply than lift ever rises
+ * (a jump, or scatter between close points) counts as that steep. */
+static double full_viscosity(double fall)
+{
+    const double m = fmin(fall, 2.0 * NUM_PI);
+    return 2.0 * m * m / 4.0;
+}
+
+double lifting_line_viscosity(const struct polar *p, int n, const double *slope)
+{
+    const double steepest = polar_steepest_fall(p);
+    double fall = 0.0;
+    for (int i = 0; i < n; i++) {
+        fall = fmax(fall, -slope[i]);
+    }
+    return fall > 0.0 ? full_viscosity(steepest) * fmin(1.0, fall / (0.1 * steepest)) : 0.0;
+}
+
+/* Newton again with another viscosity. */
+static double newton_with(struct problem *p, double epsilon)
+{
+    p->s->epsilon = epsilon;
+    p->s->factored = false;
+    return newton(p);
+}
+
+/* The same from the present iterate, from the table, from no lift, until one converges. */
+static double newton_from_anywhere(struct problem *p, double epsilon)
+{
+    struct lifting_line_state *s = p->s;
+    double residual = newton_with(p, epsilon);
+    for (int start = 0; start < 2 && !(residual <= p->ll->tolerance); start++) {
+        s->known = 0;
+        start_values(p);
+        if (start == 1) {
+            memset(s->cl, 0, (size_t)s->n * sizeof *s->cl);
+        }
+        residual = newton_with(p, epsilon);
+    }
+    return residual;
+}
+
+/* Viscosity asked for by the solution at hand less the one it was computed with. */
+static double shortfall(const struct problem *p)
+{
+    return lifting_line_viscosity(p->polar, p->s->n, p->s->slope) - p->s->epsilon;
+}
+
+/* A solution with as much viscosity as its own slopes ask for: full in all but the first moments of
+ * a stall, where it is searched for between none and full (regula falsi, Illinois) and rounded up.
+ * Returns the largest residual. */
+static double regularise(struct problem *p)
+{
+    enum { SEARCH_MAX = 20 };
+    static const double close = 1e-3; /* relative to the full viscosity */
+    const double full = full_viscosity(polar_steepest_fall(p->polar));
+    const double tolerance = p->ll->tolerance;
+    double residual = newton_from_anywhere(p, full);
+    double high = full, g_high = shortfall(p);
+    if (!(residual <= tolerance) || g_high >= 0.0) {
+        return residual;
+    }
+    residual = newton_with(p, 0.0);
+    double low = 0.0, g_low = residual <= tolerance ? shortfall(p) : full;
+    if (g_low <= 0.0) {
+        return residual;
+    }
+    int side = 0;
+    double g = g_high;
+    /* Half of the iterations at most, so that some are left for the rounding up. */
+    for (int k = 0; k < SEARCH_MAX && !(g <= 0.0 && g >= -close * full) &&
+                    2 * p->iterations < p->ll->iterations_max;
+         k++) {
+        const double middle = (low * g_high - high * g_low) / (g_high - g_low);
+        residual = newton_with(p, middle);
+        g = residual <= tolerance ? shortfall(p) : full;
+        const int next = g > 0.0 ? 1 : -1;
+        double *const moved = g > 0.0 ? &g_low : &g_high;
+        double *const kept = g > 0.0 ? &g_high : &g_low;
+        *(g > 0.0 ? &low : &high) = middle;
+        *moved = g;
+        *kept *= next == side ? 0.5 : 1.0;
+        side = next;
+    }
+    return g <= 0.0 ? residual : newton_with(p, high);
 }
 
 struct lifting_line_report lifting_line_solve(const struct lifting_line *ll, const struct polar *p,
@@ -215,14 +323,28 @@ struct lifting_line_report lifting_line_solve(const struct lifting_line *ll, con
                                               struct lifting_line_state *s)
 {
     assert(s->n == ll->n);
-    const bool warm = s->known > 0;
-    struct lifting_line_report r = iterate(ll, p, alpha_geometric, plunge, s);
-    if (!r.converged && warm) {
-        /* The earlier solutions may have led astray; known is 0 now, so this one starts cold. */
-        const int spent = r.iterations;
-        s->factored = false;
-        r = iterate(ll, p, alpha_geometric, plunge, s);
-        r.iterations += spent;
+    struct problem problem = {
+        .ll = ll, .polar = p, .alpha_g = alpha_geometric, .plunge = plunge, .s = s};
+    const int known = s->known;
+    start_values(&problem);
+    double residual = known > 0 ? newton(&problem) : newton_with(&problem, 0.0);
+    if (!(residual <= ll->tolerance) && known > 0) {
+        /* The earlier solutions may have led astray. */
+        s->known = 0;
+        start_values(&problem);
+        residual = newton_with(&problem, 0.0);
     }
-    return r;
+    if (polar_steepest_fall(p) > 0.0 &&
+        !(residual <= ll->tolerance && shortfall(&problem) == 0.0)) {
+        s->known = 0;
+        residual = regularise(&problem);
+    }
+    const bool converged = residual <= ll->tolerance;
+    /* A failed solution is no start for the next. */
+    s->known = converged ? (s->known < 3 ? s->known + 1 : 3) : 0;
+    const double smoothing = s->epsilon > 0.0 ? s->epsilon * largest_of(s->n, s->rough) : 0.0;
+    return (struct lifting_line_report){.converged = converged,
+                                        .iterations = problem.iterations,
+                                        .residual = residual,
+                                        .smoothing = smoothing};
 }

@@ -13,9 +13,10 @@ enum { QUANTITIES = 3, CUBIC = 4 }; /* c_l, c_d, c_m */
 struct polar {
     int n_alpha, n_plunge;
     double linear_from, linear_to;
-    double *alpha;  /* (n_alpha) */
-    double *plunge; /* (n_plunge) */
-    double *cubic;  /* (CUBIC x QUANTITIES x (n_alpha - 1) x n_plunge) */
+    double steepest_fall; /* [1/rad] */
+    double *alpha;        /* (n_alpha) */
+    double *plunge;       /* (n_plunge) */
+    double *cubic;        /* (CUBIC x QUANTITIES x (n_alpha - 1) x n_plunge) */
     /* Buckets of equal width over the angles give the first interval to look at in O(1). */
     int n_bucket;
     double bucket_per_rad;
@@ -149,6 +150,29 @@ static void fill_cubics(struct polar *p, int plunge, int quantity, const double 
     }
 }
 
+/* Steepest fall of a cubic over [0, h]: at an end, or at the vertex of its slope. */
+static double fall_of(const double *a, double h)
+{
+    const double vertex = a[3] > 0.0 ? num_clamp(-a[2] / (3.0 * a[3]), 0.0, h) : 0.0;
+    const double t[] = {0.0, vertex, h};
+    double fall = 0.0;
+    for (size_t k = 0; k < sizeof t / sizeof t[0]; k++) {
+        fall = fmax(fall, -(a[1] + t[k] * (2.0 * a[2] + t[k] * 3.0 * a[3])));
+    }
+    return fall;
+}
+
+static double steepest_fall(const struct polar *p)
+{
+    double fall = 0.0;
+    for (int r = 0; r < p->n_plunge; r++) {
+        for (int i = 0; i + 1 < p->n_alpha; i++) {
+            fall = fmax(fall, fall_of(cubic_of(p, r, i, 0), p->alpha[i + 1] - p->alpha[i]));
+        }
+    }
+    return fall;
+}
+
 enum status polar_create(const struct polar_def *def, struct polar **out)
 {
     assert(def->n_alpha >= 2);
@@ -178,6 +202,7 @@ enum status polar_create(const struct polar_def *def, struct polar **out)
         fill_cubics(p, r, 1, def->cd + (size_t)r * na);
         fill_cubics(p, r, 2, def->cm + (size_t)r * na);
     }
+    p->steepest_fall = steepest_fall(p);
     const double range = p->alpha[na - 1] - p->alpha[0];
     p->bucket_per_rad = p->n_bucket / range;
     int interval = 0;
@@ -297,6 +322,11 @@ void polar_lift(const struct polar *p, int n, const double *alpha, const double 
 struct polar_range polar_linear_range(const struct polar *p)
 {
     return (struct polar_range){.from = p->linear_from, .to = p->linear_to};
+}
+
+double polar_steepest_fall(const struct polar *p)
+{
+    return p->steepest_fall;
 }
 
 bool polar_is_stalled(const struct polar *p, double alpha)

@@ -64,6 +64,9 @@ struct polar_value polar_at(const struct polar *p, double alpha, double plunge);
 void polar_lift(const struct polar *p, int n, const double *alpha, const double *plunge, double *cl,
                 double *cl_slope);
 
+/* Steepest fall of the lift with the angle anywhere in the table [1/rad], >= 0. */
+double polar_steepest_fall(const struct polar *p);
+
 /* The linear range stated by the table [rad]. */
 struct polar_range {
     double from, to;

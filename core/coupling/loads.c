@@ -79,6 +79,8 @@ static void solve_induced(const struct model *m, struct workspace *w)
     w->counters.not_converged += !r.converged;
     w->counters.lifting_line_iterations += r.iterations;
     w->counters.lifting_line_residual = fmax(w->counters.lifting_line_residual, r.residual);
+    w->counters.lifting_line_regularised += r.smoothing > 0.0;
+    w->counters.lifting_line_smoothing = fmax(w->counters.lifting_line_smoothing, r.smoothing);
 }
 
 static void steady_coefficients(const struct model *m, struct workspace *w)

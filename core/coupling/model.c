@@ -259,8 +259,13 @@ static enum status build_aero(struct model *m)
         st = network_create(a->network, &m->network);
     }
     if (st == ST_OK && a->lifting_line) {
-        st = lifting_line_init(m->n_station, b->length, m->chord, a->walls, a->width, a->tolerance,
-                               a->iterations_max, &m->lifting_line);
+        const struct wing wing = {.n = m->n_station,
+                                  .length = b->length,
+                                  .chord = m->chord,
+                                  .walls = a->walls,
+                                  .width = a->width,
+                                  .tip = a->tip};
+        st = lifting_line_init(&wing, a->tolerance, a->iterations_max, &m->lifting_line);
     }
     if (st == ST_OK && a->dynamic == DYNAMIC_STALL) {
         st = dynamic_stall_init(m->n_station, m->chord, m->def.flow.speed, m->def.solver.time_step,

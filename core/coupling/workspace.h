@@ -51,7 +51,8 @@ struct workspace {
 
     struct {
         long outside_polar, outside_hull, not_converged, lifting_line_iterations;
-        double lifting_line_residual;
+        long lifting_line_regularised;
+        double lifting_line_residual, lifting_line_smoothing;
     } counters;
 };
 

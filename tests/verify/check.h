@@ -60,6 +60,7 @@ struct check_group {
     X(properties)                                                                                  \
     X(reference_3d)                                                                                \
     X(lifting_line)                                                                                \
+    X(stalled_line)                                                                                \
     X(unsteady)                                                                                    \
     X(integrators)                                                                                 \
     X(examples)                                                                                    \

@@ -6,6 +6,7 @@
 #include "tests/verify/check.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,14 +14,15 @@ enum { STATIONS_MAX = 256 };
 static const double angle = 0.05;
 static const char *const source = "[C], validation data 7.1";
 
-struct wing {
+struct rectangle {
     double length, chord; /* half span and chord */
     enum wall_images walls;
     double width;
+    enum tip_correction tip;
 };
 
 /* c_l / alpha at the stations for uniform incidence; returns the mean, C_L / alpha. */
-static double lift_slope(const struct wing *g, int n, double *cl)
+static double lift_slope(const struct rectangle *g, int n, double *cl)
 {
     struct polar_def def = fixture_linear_polar(2.0 * NUM_PI, 0.0, 0.0, 1.0);
     struct polar *polar = NULL;
@@ -32,8 +34,13 @@ static double lift_slope(const struct wing *g, int n, double *cl)
         alpha[i] = angle;
         chord[i] = g->chord;
     }
-    if (polar_create(&def, &polar) != ST_OK ||
-        lifting_line_init(n, g->length, chord, g->walls, g->width, 1e-12, 50, &ll) != ST_OK ||
+    const struct wing wing = {.n = n,
+                              .length = g->length,
+                              .chord = chord,
+                              .walls = g->walls,
+                              .width = g->width,
+                              .tip = g->tip};
+    if (polar_create(&def, &polar) != ST_OK || lifting_line_init(&wing, 1e-12, 50, &ll) != ST_OK ||
         lifting_line_state_init(n, &state) != ST_OK) {
         abort();
     }
@@ -52,7 +59,7 @@ static double lift_slope(const struct wing *g, int n, double *cl)
 
 /* The border of a uniform element stands off the root of the circulation at the tip: the error
  * falls as 1/n. Limit of a + b/n + c/n^2 through n, 2n, 4n stations. */
-static double extrapolated(const struct wing *g, int n)
+static double extrapolated(const struct rectangle *g, int n)
 {
     double cl[STATIONS_MAX];
     const double a = lift_slope(g, n, cl), b = lift_slope(g, 2 * n, cl);
@@ -61,28 +68,65 @@ static double extrapolated(const struct wing *g, int n)
     return (4.0 * bc - ab) / 3.0;
 }
 
+static const struct {
+    double ratio, slope; /* of the whole span to the chord; C_L alpha */
+} glauert[] = {{4.0, 4.0284}, {6.0, 4.5304},  {7.4, 4.7586},
+               {8.0, 4.8377}, {10.0, 5.0468}, {20.0, 5.5443}};
+enum { RATIOS = sizeof glauert / sizeof glauert[0] };
+
 static void slopes(struct check_list *list)
 {
-    static const struct {
-        double ratio, slope;
-    } row[] = {{4.0, 4.0284}, {6.0, 4.5304},  {7.4, 4.7586},
-               {8.0, 4.8377}, {10.0, 5.0468}, {20.0, 5.5443}};
-    const struct wing paper = {0.37, 0.1, WALLS_ROOT, 0.0};
+    const struct rectangle paper = {0.37, 0.1, WALLS_ROOT, 0.0, TIP_NONE};
     double cl[STATIONS_MAX];
-    check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&paper, 16, cl), 4.7586, 0.02, source,
-              "C_L alpha, AR 7.4, 16 uniform elements");
-    check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&paper, 64, cl), 4.7586, 0.006, source,
-              "C_L alpha, AR 7.4, 64 uniform elements");
-    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
-        const struct wing g = {0.5 * row[i].ratio, 1.0, WALLS_ROOT, 0.0};
-        check_add(list, CHECK_RELATIVE, "1/rad", extrapolated(&g, 64), row[i].slope, 0.001, source,
-                  "C_L alpha, AR %g, extrapolated from 64, 128, 256", row[i].ratio);
+    for (int i = 0; i < RATIOS; i++) {
+        const struct rectangle g = {0.5 * glauert[i].ratio, 1.0, WALLS_ROOT, 0.0, TIP_NONE};
+        const double expected = glauert[i].slope;
+        check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&g, 16, cl), expected, 0.02, source,
+                  "C_L alpha, AR %g, 16 elements, no correction", glauert[i].ratio);
+        check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&g, 64, cl), expected, 0.006, source,
+                  "C_L alpha, AR %g, 64 elements, no correction", glauert[i].ratio);
+        check_add(list, CHECK_RELATIVE, "1/rad", extrapolated(&g, 64), expected, 0.001, source,
+                  "C_L alpha, AR %g, extrapolated from 64, 128, 256", glauert[i].ratio);
     }
     /* Half a wing with a mirror is the whole wing without: exactly, element by element. */
-    const struct wing whole = {0.74, 0.1, WALLS_NONE, 0.0};
+    const struct rectangle whole = {0.74, 0.1, WALLS_NONE, 0.0, TIP_NONE};
     const double half = lift_slope(&paper, 16, cl);
     check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&whole, 32, cl), half, 1e-12, "property",
               "C_L alpha of the whole wing, 32 elements, no mirror");
+}
+
+/* Wings with the vortex of the tip inset, and how the error falls with the number of elements. */
+static void tip_inset(struct check_list *list)
+{
+    static const int elements[] = {8, 16, 32, 64};
+    static const double tolerance[] = {0.01, 0.005, 0.002, 0.001};
+    double cl[STATIONS_MAX];
+    for (int i = 0; i < RATIOS; i++) {
+        const struct rectangle g = {0.5 * glauert[i].ratio, 1.0, WALLS_ROOT, 0.0, TIP_INSET};
+        for (size_t k = 0; k < sizeof elements / sizeof elements[0]; k++) {
+            check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&g, elements[k], cl),
+                      glauert[i].slope, tolerance[k], source,
+                      "C_L alpha, AR %g, %d elements, tip inset", glauert[i].ratio, elements[k]);
+        }
+    }
+    const struct rectangle paper = {0.37, 0.1, WALLS_ROOT, 0.0, TIP_INSET};
+    const struct rectangle whole = {0.74, 0.1, WALLS_NONE, 0.0, TIP_INSET};
+    check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&whole, 32, cl), lift_slope(&paper, 16, cl),
+              1e-12, "property", "C_L alpha of the whole wing, 32 elements, both tips inset");
+    const double coarse = lift_slope(&paper, 32, cl) - 4.7586;
+    const double fine = lift_slope(&paper, 128, cl) - 4.7586;
+    check_add(list, CHECK_AT_LEAST, "", log(coarse / fine) / log(4.0), 0.0, 1.4,
+              "property: order 3/2", "AR 7.4, tip inset: observed order from 32 to 128 elements");
+    for (double gap = 0.003; gap < 0.2; gap *= 10.0) {
+        const struct rectangle g = {0.37, 0.1, WALLS_ROOT_AND_FAR, 0.37 + gap, TIP_INSET};
+        struct rectangle plain = g;
+        plain.tip = TIP_NONE;
+        const double limit = extrapolated(&plain, 64);
+        check_add(list, CHECK_AT_MOST, "",
+                  fabs(lift_slope(&g, 16, cl) - limit) / fabs(lift_slope(&plain, 16, cl) - limit),
+                  0.0, gap < 0.01 ? 0.35 : 0.25, "extrapolated",
+                  "far wall %g m beyond the tip, 16 elements: error with inset over without", gap);
+    }
 }
 
 /* c_l / alpha at a share of the half span, linear between mid-points. */
@@ -94,7 +138,7 @@ static double at_span(int n, const double *cl, double share)
 }
 
 /* The same for c_l / alpha at a place. */
-static double extrapolated_at(const struct wing *g, double share)
+static double extrapolated_at(const struct rectangle *g, double share)
 {
     double cl[STATIONS_MAX];
     (void)lift_slope(g, STATIONS_MAX / 2, cl);
@@ -107,7 +151,7 @@ static void distribution(struct check_list *list)
 {
     static const double share[] = {0.0, 0.25, 0.5, 0.75, 0.9, 0.95};
     static const double expected[] = {5.380, 5.326, 5.126, 4.563, 3.572, 2.801};
-    const struct wing paper = {0.37, 0.1, WALLS_ROOT, 0.0};
+    const struct rectangle paper = {0.37, 0.1, WALLS_ROOT, 0.0, TIP_NONE};
     for (size_t i = 0; i < sizeof share / sizeof share[0]; i++) {
         check_add(list, CHECK_RELATIVE, "1/rad", extrapolated_at(&paper, share[i]), expected[i],
                   0.003, source, "AR 7.4, extrapolated: c_l/alpha at 2y/b = %g", share[i]);
@@ -116,16 +160,23 @@ static void distribution(struct check_list *list)
 
 static void far_wall(struct check_list *list)
 {
-    const struct wing g = {0.37, 0.1, WALLS_ROOT_AND_FAR, 0.4};
+    const struct rectangle g = {0.37, 0.1, WALLS_ROOT_AND_FAR, 0.4, TIP_NONE};
     double cl[STATIONS_MAX];
+    check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&g, 64, cl), 5.357, 0.007, source,
+              "C_L alpha, far wall at 0.4 m, 64 elements, no correction");
     check_add(list, CHECK_RELATIVE, "1/rad", extrapolated(&g, 64), 5.357, 0.001, source,
               "C_L alpha, far wall at 0.4 m, extrapolated");
+    const struct rectangle inset = {0.37, 0.1, WALLS_ROOT_AND_FAR, 0.4, TIP_INSET};
+    check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&inset, 16, cl), 5.357, 0.005, source,
+              "C_L alpha, far wall at 0.4 m, 16 elements, tip inset");
+    check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&inset, 64, cl), 5.357, 0.002, source,
+              "C_L alpha, far wall at 0.4 m, 64 elements, tip inset");
     check_add(list, CHECK_RELATIVE, "1/rad", extrapolated_at(&g, 0.5), 5.732, 0.003, source,
               "far wall at 0.4 m: c_l/alpha at mid-span");
     check_add(list, CHECK_RELATIVE, "1/rad", extrapolated_at(&g, 0.9), 4.239, 0.003, source,
               "far wall at 0.4 m: c_l/alpha at 90 %%");
     /* Both mirrors close on the wing: it becomes two-dimensional. */
-    const struct wing closed = {0.37, 0.1, WALLS_ROOT_AND_FAR, 0.37 * (1.0 + 1e-9)};
+    const struct rectangle closed = {0.37, 0.1, WALLS_ROOT_AND_FAR, 0.37 * (1.0 + 1e-9), TIP_NONE};
     check_add(list, CHECK_RELATIVE, "1/rad", lift_slope(&closed, 16, cl), 2.0 * NUM_PI, 1e-6,
               "property", "far wall at the tip: no induced angle");
 }
@@ -143,8 +194,9 @@ static void independence(struct check_list *list)
     for (int i = 0; i < N; i++) {
         chord[i] = 0.1;
     }
+    const struct wing wing = {.n = N, .length = 0.37, .chord = chord, .walls = WALLS_ROOT};
     if (polar_create(&def, &polar) != ST_OK ||
-        lifting_line_init(N, 0.37, chord, WALLS_ROOT, 0.0, tolerance, 50, &ll) != ST_OK ||
+        lifting_line_init(&wing, tolerance, 50, &ll) != ST_OK ||
         lifting_line_state_init(N, &cold) != ST_OK || lifting_line_state_init(N, &warm) != ST_OK) {
         abort();
     }
@@ -174,6 +226,7 @@ static void independence(struct check_list *list)
 static void fill(struct check_list *list)
 {
     slopes(list);
+    tip_inset(list);
     distribution(list);
     far_wall(list);
     independence(list);
@@ -184,6 +237,7 @@ const struct check_group group_lifting_line = {
     .title = "Lifting line",
     .text = "Rectangular wing, section slope 2 pi, half of it behind a mirror at the root. The "
             "reference is Glauert's series with 200 terms; uniform elements approach it as 1/n, so "
-            "the limit is extrapolated.",
+            "the limit is extrapolated. With the vortex of a free tip inset by an eighth of an "
+            "element, the default, the error falls as n^(-3/2) and is below 0.5 % at 16 elements.",
     .fill = fill,
 };
