@@ -315,7 +315,12 @@ static double regularise(struct problem *p)
         *kept *= next == side ? 0.5 : 1.0;
         side = next;
     }
-    return g <= 0.0 ? residual : newton_with(p, high);
+    if (p->s->epsilon < high) {
+        residual = newton_with(p, high);
+        /* The way there may have led to another solution, with a steeper fall. */
+        residual = shortfall(p) > 0.0 ? newton_with(p, full) : residual;
+    }
+    return residual;
 }
 
 struct lifting_line_report lifting_line_solve(const struct lifting_line *ll, const struct polar *p,

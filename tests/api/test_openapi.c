@@ -357,7 +357,7 @@ static void test_defaults(void **state)
     } minimal[] = {
         {HEAD("simulation", STRIP) "},\"flow\":{\"speed_m_s\":1},\"aerodynamics\":{\"polar\":"
                                    "\"plate-4pct-channel\"},\"solver\":{\"duration_s\":1}}",
-         36},
+         37},
         {HEAD("modes", BOX) ",\"masses\":[{\"z_m\":1,\"mass_kg\":1}]}}", 16},
         {HEAD("static", CONTOUR) "},\"loads\":{\"points\":[{\"z_m\":1}],\"lines\":[{}]}}", 29},
     };

@@ -144,8 +144,8 @@ static void stall_is_solved_or_said(void **state)
         assert_true(num_all_finite(N, s.state.cl));
         solved += r.converged;
     }
-    print_message("%d solved\n", solved);
-    assert_true(solved > 75);
+
+    assert_true(solved >= 149); /* of 151 */
     finish(&s);
 }
 

@@ -115,7 +115,8 @@ static double residual(const struct rig *r)
         slope[i] = v.cl_slope;
         largest = fmax(largest, fabs(s->cl[i] - v.cl - s->epsilon * rough));
     }
-    return s->epsilon >= lifting_line_viscosity(r->polar, r->n, slope) ? largest : (double)INFINITY;
+    const double least = lifting_line_viscosity(r->polar, r->n, slope);
+    return s->epsilon >= least * (1.0 - 1e-9) ? largest : (double)INFINITY;
 }
 
 /* Every angle to 32 degrees from three starts. */
