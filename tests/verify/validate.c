@@ -16,7 +16,8 @@ static const char *const introduction =
     "the\n"
     "formula of the text book, property: follows from the mathematics. The model page and the\n"
     "validation data are the design note and the collection of reference numbers that were made\n"
-    "for this project before its code; what is quoted of them stands in the tests.\n";
+    "for this project before its code; what is quoted of them stands in the tests. The dynamic\n"
+    "models beside computations of the flow through stall are on a page of their own, LOOPS.md.\n";
 
 int main(void)
 {

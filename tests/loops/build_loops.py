@@ -1,0 +1,317 @@
+#!/usr/bin/env python3
+"""Builds docs/LOOPS.md and its drawings: the dynamic models beside the flow computations of data/cfd.
+
+    build_loops.py [--aerom build/release/bin/aerom]
+
+Every sine record of the index in the middle of the channel at Re 20,000 is run through `aerom loop` with the
+shipped polar; the last of 20 cycles is compared with the average cycle of the record. Python 3 standard
+library."""
+
+import argparse
+import csv
+import json
+import math
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+CFD = ROOT / "data" / "cfd"
+sys.path.insert(0, str(CFD / "campaign"))
+import build_harmonics  # noqa: E402
+import motion  # noqa: E402
+
+PAGE = ROOT / "docs" / "LOOPS.md"
+DRAWINGS = ROOT / "docs" / "loops"
+POLAR = ROOT / "data" / "polars" / "plate-4pct-channel.json"
+POINTS = build_harmonics.POINTS
+CYCLES = 20
+MODELS = (  # key, options of aerom, name, colour
+    ("none", ("--dynamic", "none"), "quasi-steady", "#9aa0a6"),
+    ("attached", ("--dynamic", "attached"), "attached", "#1f6fb4"),
+    ("stall", ("--dynamic", "dynamic_stall"), "dynamic stall", "#c5221f"),
+    ("own", ("--dynamic", "dynamic_stall"), "dynamic stall, slope of the polar", None),
+)
+DRAWN = ("pitch_m0_a1_f0.125", "pitch_m2.5_a5_f0.125", "pitch_m5_a7_f0.25", "pitch_m8_a6_f0.06",
+         "pitchplunge_m2.5_a4_w0.15_f0.125", "plunge_m4_w0.15_f0.08", "plunge_m8_w0.15_f0.08")
+
+
+def sine_rows():
+    """Lines of the index that are comparable sines, in the order of the design."""
+    with open(CFD / "index.csv", newline="", encoding="ascii") as file:
+        rows = [row for row in csv.DictReader(file) if row["status"] == "done" and int(row["cycles"])]
+    return [row for row in rows if row["block"].startswith("sine_") and float(row["plunge_c"]) == 0.0
+            and row["re"] == "20000"]
+
+
+def terms(row):
+    """Pitch and plunge as (amplitude, frequency, phase [rad]); None where there is no motion."""
+    result = []
+    for column in ("pitch", "plunge"):
+        parsed = motion.parse(row[column])
+        result.append((parsed[0][0], parsed[0][1], parsed[0][3]) if parsed else None)
+    return result
+
+
+def average_cycle(row, frequency):
+    """Mean of the counted cycles, and the standard deviation of their work."""
+    record = build_harmonics.read(CFD / "records" / (row["name"] + ".csv"))
+    cycles = build_harmonics.cycles_of(row, record, frequency)
+    average = {key: [statistics.fmean(c[key][j] for c in cycles) for j in range(POINTS)]
+               for key in ("cl", "cd", "cm")}
+    return average, cycles
+
+
+def work(cycle, pitch, plunge):
+    """Integral of c_m d(alpha) + c_l dw over one cycle, positive when the flow feeds the motion."""
+    total = 0.0
+    for j in range(POINTS):
+        psi = 2.0 * math.pi * j / POINTS
+        if pitch:
+            total += cycle["cm"][j] * math.radians(pitch[0]) * math.cos(psi + pitch[2])
+        if plunge:
+            total += cycle["cl"][j] * plunge[0] * math.cos(psi + plunge[2])
+    return 2.0 * math.pi / POINTS * total
+
+
+def model_cycle(aerom, options, polar, row, pitch, plunge):
+    """The last cycle of a model, at the phases of the record."""
+    frequency = (pitch or plunge)[1]
+    command = [aerom, "loop", *options, "--polar", str(polar), "--mean-deg", row["mean_deg"],
+               "--frequency", "%r" % frequency, "--cycles", str(CYCLES), "--steps", str(2 * POINTS)]
+    shift = pitch[2] if pitch else 0.0  # the command counts phase from that of the pitch
+    if pitch:
+        command += ["--amplitude-deg", "%r" % pitch[0]]
+    if plunge:
+        command += ["--plunge", "%r" % plunge[0], "--phase-deg", "%r" % math.degrees(plunge[2] - shift)]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    if result.returncode != 0:
+        raise SystemExit("%s\n%s" % (" ".join(command), result.stderr))
+    lines = result.stdout.splitlines()[:-1]
+    last = list(csv.DictReader(lines))[-2 * POINTS - 1:-1][::2]
+    turn = round(shift / (2.0 * math.pi) * POINTS)
+    last = last[turn:] + last[:turn]
+    return {key: [float(point[key]) for point in last] for key in ("cl", "cd", "cm")}
+
+
+def misfit(model, reference, key):
+    """Rms of the difference over the range of the reference, in per cent."""
+    square = statistics.fmean((a - b) ** 2 for a, b in zip(model[key], reference[key]))
+    return 100.0 * math.sqrt(square) / (max(reference[key]) - min(reference[key]))
+
+
+def own_slope(folder):
+    """The shipped polar whose potential flow has the slope and centre of its own linear range."""
+    polar = json.loads(POLAR.read_text(encoding="utf-8"))
+    row = min(range(len(polar["plunge_c"])), key=lambda i: abs(polar["plunge_c"][i]))
+    best = max((cl / math.radians(a), cm / cl) for a, cl, cm in
+               zip(polar["alpha_deg"], polar["cl"][row], polar["cm"][row])
+               if a != 0 and polar["linear_from_deg"] <= a <= polar["linear_to_deg"])
+    polar["dynamic_stall"] = {"lift_slope_per_rad": best[0], "lift_centre_c": best[1]}
+    path = Path(folder) / "own.json"
+    path.write_text(json.dumps(polar), encoding="utf-8")
+    return path, best
+
+
+def compare(aerom, row, own):
+    pitch, plunge = terms(row)
+    reference, cycles = average_cycle(row, (pitch or plunge)[1])
+    works = [work(c, pitch, plunge) for c in cycles]
+    result = {"row": row, "pitch": pitch, "plunge": plunge, "cfd": reference,
+              "work": statistics.fmean(works), "work_sd": statistics.pstdev(works)}
+    for key, options, _, _ in MODELS:
+        cycle = model_cycle(aerom, options, own if key == "own" else POLAR, row, pitch, plunge)
+        result[key] = {"cycle": cycle, "work": work(cycle, pitch, plunge),
+                       "misfit": {c: misfit(cycle, reference, c) for c in ("cl", "cd", "cm")}}
+    return result
+
+
+def relative_angle(item):
+    """Angle of the chord in the relative stream, alpha - w_dot/V [deg], at the phases."""
+    angles = []
+    for j in range(POINTS):
+        psi = 2.0 * math.pi * j / POINTS
+        angle = float(item["row"]["mean_deg"])
+        if item["pitch"]:
+            angle += item["pitch"][0] * math.sin(psi + item["pitch"][2])
+        if item["plunge"]:
+            amplitude, frequency, phase = item["plunge"]
+            angle -= math.degrees(2.0 * math.pi * frequency * amplitude * math.cos(psi + phase))
+        angles.append(angle)
+    return angles
+
+
+def nice_step(span):
+    raw = span / 5.0
+    size = 10.0 ** math.floor(math.log10(raw))
+    return min(s * size for s in (1, 2, 5, 10) if s * size >= raw * 0.999)
+
+
+class Panel:
+    """One coefficient over the angle."""
+
+    width, height = 400, 300
+
+    def __init__(self, left, title, angles, curves):
+        self.left, self.top, self.title = left, 46, title
+        values = [v for _, curve, _ in curves for v in curve]
+        self.x0, self.x1 = self.margins(angles)
+        self.y0, self.y1 = self.margins(values)
+        self.angles, self.curves = angles, curves
+
+    @staticmethod
+    def margins(values):
+        low, high = min(values), max(values)
+        edge = 0.05 * (high - low)
+        return low - edge, high + edge
+
+    def x(self, v):
+        return self.left + (v - self.x0) / (self.x1 - self.x0) * self.width
+
+    def y(self, v):
+        return self.top + (self.y1 - v) / (self.y1 - self.y0) * self.height
+
+    def svg(self):
+        yield '<rect x="%d" y="%d" width="%d" height="%d" fill="none" stroke="#555"/>' % (
+            self.left, self.top, self.width, self.height)
+        yield '<text x="%d" y="%d" font-weight="bold">%s</text>' % (self.left, self.top - 8, self.title)
+        for low, high, across in ((self.x0, self.x1, False), (self.y0, self.y1, True)):
+            step = nice_step(high - low)
+            k = math.ceil(low / step)
+            while k * step <= high:
+                v = k * step
+                if across:
+                    yield ('<path d="M%d %.1f h%d" stroke="#ddd"/><text x="%d" y="%.1f" '
+                           'text-anchor="end">%.4g</text>' % (self.left, self.y(v), self.width,
+                                                              self.left - 6, self.y(v) + 4, v))
+                else:
+                    yield ('<path d="M%.1f %d v%d" stroke="#ddd"/><text x="%.1f" y="%d" '
+                           'text-anchor="middle">%.4g</text>' % (
+                               self.x(v), self.top, self.height, self.x(v),
+                               self.top + self.height + 16, v))
+                k += 1
+        for colour, curve, width in self.curves:
+            points = " ".join("%.1f,%.1f" % (self.x(a), self.y(v))
+                              for a, v in list(zip(self.angles, curve))[::2])
+            yield '<polygon points="%s" fill="none" stroke="%s" stroke-width="%g"/>' % (
+                points, colour, width)
+
+
+def drawing(item):
+    angles = relative_angle(item)
+    drawn = [("#000000", item["cfd"], 2.5)]
+    drawn += [(colour, item[key]["cycle"], 1.5) for key, _, _, colour in MODELS if colour]
+    out = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 960 430" width="960" height="430" '
+           'font-family="sans-serif" font-size="13">',
+           '<title>Lift and moment of %s: flow computation and models</title>' % item["row"]["name"],
+           '<rect width="960" height="430" fill="#ffffff"/>']
+    for left, key, title in ((60, "cl", "c_l"), (530, "cm", "c_m about mid-chord, nose-up")):
+        panel = Panel(left, title, angles, [(c, cycle[key], w) for c, cycle, w in drawn])
+        out += panel.svg()
+        out.append('<text x="%d" y="%d" text-anchor="middle">angle of the chord in the relative stream '
+                   '[deg]</text>' % (left + 200, 384))
+    x = 60
+    for colour, name in [("#000000", "flow computation")] + [(c, n) for _, _, n, c in MODELS if c]:
+        out.append('<path d="M%d 412 h30" stroke="%s" stroke-width="2.5"/><text x="%d" y="416">%s</text>'
+                   % (x, colour, x + 36, name))
+        x += 190
+    return "\n".join(out + ["</svg>"]) + "\n"
+
+
+def motion_text(item):
+    parts = ["%g deg" % float(item["row"]["mean_deg"])]
+    if item["pitch"]:
+        parts.append("pitch %g deg" % item["pitch"][0])
+    if item["plunge"]:
+        parts.append("plunge %g c" % item["plunge"][0])
+    if item["pitch"] and item["plunge"]:
+        parts.append("%g deg ahead" % math.degrees(item["plunge"][2] - item["pitch"][2]))
+    return ", ".join(parts)
+
+
+def same_sign(model, reference):
+    """Rounding has no sign."""
+    return abs(model) > 1e-6 and model * reference > 0.0
+
+
+def signed(value):
+    return "%+.5f" % (value + 0.0)
+
+
+def table(items):
+    yield "| motion | f c/V | work | " + " | ".join(
+        "%s: c_l, c_m, work" % name for _, _, name, _ in MODELS) + " |"
+    yield "|---|---|---|" + "---|" * len(MODELS)
+    for item in items:
+        cells = [motion_text(item), "%g" % (item["pitch"] or item["plunge"])[1],
+                 "%s ± %.5f" % (signed(item["work"]), item["work_sd"])]
+        cells += ["%.0f %%, %.0f %%, %s" % (item[key]["misfit"]["cl"], item[key]["misfit"]["cm"],
+                                          signed(item[key]["work"])) for key, _, _, _ in MODELS]
+        yield "| " + " | ".join(cells) + " |"
+
+
+def summary(items):
+    yield "| | " + " | ".join(name for _, _, name, _ in MODELS) + " |"
+    yield "|---|" + "---|" * len(MODELS)
+    for title, value in (
+            ("c_l, median of the misfits", lambda i, k: i[k]["misfit"]["cl"]),
+            ("c_m, median", lambda i, k: i[k]["misfit"]["cm"]),
+            ("c_d, median", lambda i, k: i[k]["misfit"]["cd"])):
+        yield "| %s | " % title + " | ".join(
+            "%.0f %%" % statistics.median(value(i, key) for i in items) for key, _, _, _ in MODELS) + " |"
+    pitching = [i for i in items if not i["plunge"]]
+    if pitching:
+        yield "| pitch: sign of the work right | " + " | ".join(
+            "%d of %d" % (sum(same_sign(i[key]["work"], i["work"]) for i in pitching), len(pitching))
+            for key, _, _, _ in MODELS) + " |"
+        scale = statistics.fmean(abs(i["work"]) for i in pitching)
+        yield "| pitch: mean error of the work, over its mean size | " + " | ".join(
+            "%.0f %%" % (100.0 * statistics.fmean(abs(i[key]["work"] - i["work"]) for i in pitching)
+                         / scale) for key, _, _, _ in MODELS) + " |"
+
+
+def page(items, own):
+    with open(Path(__file__).with_name("text.md"), encoding="utf-8") as file:
+        before, after = file.read().split("<!-- numbers -->\n")
+    yield before.rstrip("\n")
+    yield ""
+    yield "%d records. The slope and centre of the last column are the polar's own: %.2f per rad and %.3f c." % (
+        len(items), own[0], own[1])
+    yield ""
+    yield from summary(items)
+    for title, kind in (("Pitch", "sine_pitch"), ("Plunge", "sine_plunge"),
+                        ("Pitch and plunge", "sine_both")):
+        group = [i for i in items if i["row"]["block"].startswith(kind)]
+        if group:
+            yield ""
+            yield "## " + title
+            yield ""
+            yield from table(group)
+            for item in group:
+                if item["row"]["name"] in DRAWN:
+                    yield ""
+                    yield "![%s at f c/V = %g](loops/%s.svg)" % (
+                        motion_text(item), (item["pitch"] or item["plunge"])[1], item["row"]["name"])
+    yield ""
+    yield after.rstrip("\n")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+    parser.add_argument("--aerom", default=str(ROOT / "build" / "release" / "bin" / "aerom"))
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        path, own = own_slope(folder)
+        items = [compare(arguments.aerom, row, path) for row in sine_rows()]
+    items.sort(key=lambda i: ((i["pitch"] or i["plunge"])[1], float(i["row"]["mean_deg"])))
+    for item in items:
+        if item["row"]["name"] in DRAWN:
+            (DRAWINGS / (item["row"]["name"] + ".svg")).write_text(drawing(item), encoding="utf-8")
+    PAGE.write_text("\n".join(page(items, own)) + "\n", encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
