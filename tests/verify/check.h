@@ -62,6 +62,7 @@ struct check_group {
     X(lifting_line)                                                                                \
     X(stalled_line)                                                                                \
     X(unsteady)                                                                                    \
+    X(dynamic_stall)                                                                               \
     X(integrators)                                                                                 \
     X(examples)                                                                                    \
     X(damping)                                                                                     \
