@@ -124,6 +124,25 @@ static const struct field aerodynamics_fields[] = {
     {0},
 };
 
+/* What is recorded unless asked otherwise: no drag where the polar has none. */
+static void aerodynamics_finish(struct reader *r, const struct cJSON *json, void *base)
+{
+    (void)r;
+    (void)json;
+    struct case_def *def = &((struct api_case *)base)->def;
+    struct output_def *o = &def->output;
+    if (def->aero.polar == NULL || polar_def_has_drag(def->aero.polar)) {
+        return;
+    }
+    int n = 0;
+    for (int i = 0; i < o->n_channel; i++) {
+        if (o->channel[i] != CHANNEL_CD) {
+            o->channel[n++] = o->channel[i];
+        }
+    }
+    o->n_channel = n;
+}
+
 static bool has_amplitudes(const void *base)
 {
     return ((const struct api_case *)base)->def.solver.start == START_AMPLITUDES;
@@ -231,7 +250,8 @@ const struct field case_fields[] = {
     OBJECT("beam", beam_fields, .required = true, .finish = beam_finish),
     OBJECT("loads", loads_fields, .kinds = STATIC),
     OBJECT("flow", flow_fields, .required = true, .kinds = SIMULATION),
-    OBJECT("aerodynamics", aerodynamics_fields, .required = true, .kinds = SIMULATION),
+    OBJECT("aerodynamics", aerodynamics_fields, .required = true, .kinds = SIMULATION,
+           .finish = aerodynamics_finish),
     OBJECT("solver", solver_fields, .required = true, .kinds = MODAL),
     OBJECT("output", output_fields, .kinds = SIMULATION | STATIC),
     {0},

@@ -146,6 +146,13 @@ const struct field material_fields[] = {
         .count = offsetof(struct polar_entry, def.n_alpha),                                        \
         .rows = offsetof(struct polar_entry, def.n_plunge)                                         \
     }
+#define POLAR_OPTIONAL_TABLE(member_, has_no_)                                                     \
+    {                                                                                              \
+        .key = #member_, .kind = FIELD_MATRIX, .kinds = ENTRY_TABLE, .omit = (has_no_),            \
+        .offset = offsetof(struct polar_entry, def.member_),                                       \
+        .count = offsetof(struct polar_entry, def.n_alpha),                                        \
+        .rows = offsetof(struct polar_entry, def.n_plunge)                                         \
+    }
 #define POLAR_ANGLE(key_, member_)                                                                 \
     {                                                                                              \
         .key = (key_), .kind = FIELD_NUMBER, .required = true, .kinds = ENTRY_TABLE,               \
@@ -157,6 +164,11 @@ const struct field material_fields[] = {
         .key = (key_), .kind = FIELD_NUMBER, .kinds = ENTRY_TABLE,                                 \
         .offset = offsetof(struct polar_entry, def.stall.member_), .range = (range_)               \
     }
+
+static bool has_no_drag(const void *base)
+{
+    return !polar_def_has_drag(&((const struct polar_entry *)base)->def);
+}
 
 static const struct field stall_fields[] = {
     STALL_NUMBER("lift_slope_per_rad", lift_slope, &positive),
@@ -188,7 +200,7 @@ const struct field polar_fields[] = {
     POLAR_AXIS("alpha_deg", alpha, n_alpha, FIELD_DEGREE, true, &angle, 2, LIMIT_POLAR_ANGLES),
     POLAR_AXIS("plunge_c", plunge, n_plunge, 1.0, false, NULL, 1, LIMIT_POLAR_PLUNGES),
     POLAR_TABLE(cl),
-    POLAR_TABLE(cd),
+    POLAR_OPTIONAL_TABLE(cd, has_no_drag),
     POLAR_TABLE(cm),
     POLAR_ANGLE("linear_from_deg", linear_from),
     POLAR_ANGLE("linear_to_deg", linear_to),

@@ -82,6 +82,7 @@ static void write_means(struct json_out *out, const struct sim_result *r)
     json_key_number(out, "lift_n", r->means.lift);
     json_key_number(out, "drag_n", r->means.drag);
     json_key_number(out, "moment_n_m", r->means.moment);
+    json_key_number(out, "efficiency", r->means.efficiency);
     json_object_end(out);
 }
 
@@ -199,14 +200,15 @@ static const struct {
     const char *name;
     void (*write)(struct json_out *out, const struct result_view *v);
 } documents[] = {
-    {"summary", write_summary},      {"damping", write_damping},
-    {"modes", result_write_modes},   {"section", result_write_section},
-    {"static", result_write_static},
+    {"summary", write_summary},        {"damping", write_damping},
+    {"loads", result_write_loads},     {"modes", result_write_modes},
+    {"section", result_write_section}, {"static", result_write_static},
 };
 
 const char *const *result_documents(enum case_kind kind)
 {
-    static const char *const simulation[] = {"summary", "damping", "modes", "section", NULL};
+    static const char *const simulation[] = {"summary", "damping", "loads",
+                                             "modes",   "section", NULL};
     static const char *const modes[] = {"summary", "modes", "section", NULL};
     static const char *const section[] = {"summary", "section", NULL};
     static const char *const statics[] = {"summary", "static", "section", NULL};

@@ -18,6 +18,7 @@ struct result_view {
 };
 
 /* Documents. */
+void result_write_loads(struct json_out *out, const struct result_view *v);
 void result_write_modes(struct json_out *out, const struct result_view *v);
 void result_write_section(struct json_out *out, const struct result_view *v);
 void result_write_static(struct json_out *out, const struct result_view *v);

@@ -21,6 +21,7 @@ const struct route route_table[] = {
     {"GET", "/v1/jobs/{id}/case", handle_case, NULL, NULL},
     {"GET", "/v1/jobs/{id}/series", handle_series, series_query, NULL},
     {"GET", "/v1/jobs/{id}/damping", handle_document, NULL, "damping"},
+    {"GET", "/v1/jobs/{id}/loads", handle_document, NULL, "loads"},
     {"GET", "/v1/jobs/{id}/modes", handle_document, NULL, "modes"},
     {"GET", "/v1/jobs/{id}/section", handle_document, NULL, "section"},
     {"GET", "/v1/jobs/{id}/static", handle_document, NULL, "static"},

@@ -21,7 +21,7 @@ static const struct command commands[] = {
      "coefficients of a section in prescribed pitch and plunge, as CSV; the last line is the work"},
     {"submit", remote_submit, "CASE.json... [--wait]", "hand cases to the daemon, print their ids"},
     {"wait", remote_wait, "ID... [--timeout SECONDS]", "wait until jobs are finished"},
-    {"get", remote_get, "ID [job|summary|case|series|damping|modes|section|static] [--csv]",
+    {"get", remote_get, "ID [job|summary|case|series|damping|loads|modes|section|static] [--csv]",
      "print a result of a job as JSON (series: also CSV); default summary"},
     {"show", remote_show, "ID", "print the summary of a job as a table"},
     {"cancel", remote_cancel, "ID...", "cancel jobs"},

@@ -213,9 +213,13 @@ static bool fetch(const struct options *o, const char *id, const char *tail,
 static const char *document_tail(const char *document, bool csv)
 {
     static const char *const table[][2] = {
-        {"job", ""},           {"summary", "/summary"},
-        {"case", "/case"},     {"damping", "/damping"},
-        {"modes", "/modes"},   {"section", "/section"},
+        {"job", ""},
+        {"summary", "/summary"},
+        {"case", "/case"},
+        {"damping", "/damping"},
+        {"loads", "/loads"},
+        {"modes", "/modes"},
+        {"section", "/section"},
         {"static", "/static"},
     };
     if (strcmp(document, "series") == 0) {

@@ -181,6 +181,32 @@ static void check_aero(const struct case_def *def, struct failure_list *out)
     }
 }
 
+/* Drag and efficiency can only be recorded if the polar has drag. */
+static void check_drag(const struct case_def *def, struct failure_list *out)
+{
+    static const struct {
+        enum channel channel;
+        const char *name;
+    } needs[] = {{CHANNEL_DRAG, "drag_n"},
+                 {CHANNEL_CD, "cd"},
+                 {CHANNEL_EFFICIENCY, "efficiency"},
+                 {CHANNEL_STATION_CD, "station_cd"}};
+    const struct polar_def *polar = def->aero.polar;
+    if (polar == NULL || polar_def_has_drag(polar)) {
+        return;
+    }
+    for (int i = 0; i < def->output.n_channel; i++) {
+        for (size_t k = 0; k < sizeof needs / sizeof needs[0]; k++) {
+            if (def->output.channel[i] == needs[k].channel) {
+                char pointer[64];
+                (void)snprintf(pointer, sizeof pointer, "/output/channels/%d", i);
+                failure_set(failure_add(out), ST_INVALID, pointer, "no_drag", "a polar with \"cd\"",
+                            needs[k].name, "the polar \"%s\" has no drag", polar->name);
+            }
+        }
+    }
+}
+
 /* The record and the history must fit: said before the work is queued. */
 static void check_size(const struct case_def *def, struct failure_list *out)
 {
@@ -264,6 +290,7 @@ void case_def_check(const struct case_def *def, struct failure_list *out)
     if (def->kind == CASE_SIMULATION) {
         check_flow(def, out);
         check_aero(def, out);
+        check_drag(def, out);
         check_solver(def, out);
     }
 }

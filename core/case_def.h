@@ -32,6 +32,7 @@ enum channel {
     CHANNEL_CL,            /* lift coefficient on the beam's area */
     CHANNEL_CD,
     CHANNEL_CM,
+    CHANNEL_EFFICIENCY,      /* total lift over total drag */
     CHANNEL_MODAL_AMPLITUDE, /* one column per mode [kg^0.5 m] */
     CHANNEL_MODAL_VELOCITY,  /* one column per mode */
     CHANNEL_STATION_PLUNGE,  /* one column per station [m] */

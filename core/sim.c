@@ -150,8 +150,8 @@ static double history_mean(const struct record *r, int column, int from)
 
 static int window_start(const struct record *r, double window, double dt)
 {
-    const double steps = floor(window / dt + 0.5);
-    return steps < r->n - 1 ? r->n - 1 - (int)steps : 0;
+    const int samples = record_window(window, dt);
+    return samples < r->n ? r->n - samples : 0;
 }
 
 static void report_means(const struct sim *s, struct sim_result *out)
@@ -167,11 +167,13 @@ static void report_means(const struct sim *s, struct sim_result *out)
     out->means.tip_plunge = history_mean(r, HISTORY_PLUNGE, from);
     out->means.tip_twist = history_mean(r, HISTORY_TWIST, from);
     out->means.cl = history_mean(r, HISTORY_CL, from);
-    out->means.cd = history_mean(r, HISTORY_CD, from);
+    out->means.cd =
+        polar_def_has_drag(def->aero.polar) ? history_mean(r, HISTORY_CD, from) : (double)NAN;
     out->means.cm = history_mean(r, HISTORY_CM, from);
     out->means.lift = force * out->means.cl;
     out->means.drag = force * out->means.cd;
     out->means.moment = force * mean_chord * out->means.cm;
+    out->means.efficiency = out->means.lift / out->means.drag;
 }
 
 /* Squared mean modal contribution over the last modal_window seconds (Fig. 14). */
@@ -305,6 +307,7 @@ static enum status run_simulation(struct sim *s, const struct sim_control *contr
     report_march(s, &march, out);
     report_similarity(&s->model, out);
     report_means(s, out);
+    span_loads_report(&s->model, &s->record, &out->loads);
     report_contribution(s, HISTORY_MODAL, out->contribution_position);
     report_contribution(s, HISTORY_MODAL + s->record.n_mode, out->contribution_velocity);
     st = report_damping(s, out);

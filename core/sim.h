@@ -8,6 +8,7 @@
 #define AEROM_CORE_SIM_H
 
 #include "core/analysis/damping.h"
+#include "core/analysis/span_loads.h"
 #include "core/analysis/statics.h"
 #include "core/analysis/verdict.h"
 #include "core/coupling/march.h"
@@ -82,7 +83,9 @@ struct sim_result {
     struct {
         double window_from, window_to;
         double tip_plunge, tip_twist, cl, cm, cd, lift, drag, moment; /* SI, rad */
+        double efficiency; /* lift over drag; NaN, as c_d and drag, if the polar has no drag */
     } means;
+    struct span_loads loads; /* over the same window; a little longer after an early stop */
     struct damping_result tip_twist, tip_plunge;
     double contribution_position[LIMIT_MODES]; /* squared mean share, sums to 1 (Fig. 14) */
     double contribution_velocity[LIMIT_MODES];

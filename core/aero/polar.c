@@ -32,6 +32,11 @@ struct stall_def stall_def_default(void)
                               .vortex_lag = 6.0};
 }
 
+bool polar_def_has_drag(const struct polar_def *def)
+{
+    return def->cd != NULL;
+}
+
 void polar_def_done(struct polar_def *def)
 {
     free(def->alpha);
@@ -71,7 +76,7 @@ void polar_def_check(const struct polar_def *def, const char *pointer, struct fa
     static const char *const field[QUANTITIES] = {"cl", "cd", "cm"};
     const double *table[QUANTITIES] = {def->cl, def->cd, def->cm};
     for (int k = 0; k < QUANTITIES; k++) {
-        for (int i = 0; i < def->n_alpha * def->n_plunge; i++) {
+        for (int i = 0; table[k] != NULL && i < def->n_alpha * def->n_plunge; i++) {
             if (!isfinite(table[k][i])) {
                 char where[160];
                 (void)snprintf(where, sizeof where, "%s/%s/%d/%d", pointer, field[k],
@@ -187,7 +192,7 @@ enum status polar_create(const struct polar_def *def, struct polar **out)
                         .linear_from = def->linear_from,
                         .linear_to = def->linear_to,
                         .n_bucket = 4 * def->n_alpha};
-    p->alpha = malloc((na + np + (size_t)(CUBIC * QUANTITIES) * (na - 1) * np) * sizeof *p->alpha);
+    p->alpha = calloc(na + np + (size_t)(CUBIC * QUANTITIES) * (na - 1) * np, sizeof *p->alpha);
     p->bucket = malloc((size_t)p->n_bucket * sizeof *p->bucket);
     if (p->alpha == NULL || p->bucket == NULL) {
         polar_destroy(p);
@@ -199,7 +204,9 @@ enum status polar_create(const struct polar_def *def, struct polar **out)
     memcpy(p->plunge, def->plunge, np * sizeof *p->plunge);
     for (int r = 0; r < def->n_plunge; r++) {
         fill_cubics(p, r, 0, def->cl + (size_t)r * na);
-        fill_cubics(p, r, 1, def->cd + (size_t)r * na);
+        if (polar_def_has_drag(def)) {
+            fill_cubics(p, r, 1, def->cd + (size_t)r * na);
+        }
         fill_cubics(p, r, 2, def->cm + (size_t)r * na);
     }
     p->steepest_fall = steepest_fall(p);

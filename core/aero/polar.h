@@ -32,12 +32,15 @@ struct polar_def {
     double *alpha;  /* [rad], strictly increasing   (n_alpha) */
     double *plunge; /* v/c, strictly increasing     (n_plunge) */
     double *cl;     /* lift coefficient             (n_alpha x n_plunge), alpha runs fastest */
-    double *cd;     /* drag coefficient             (n_alpha x n_plunge) */
+    double *cd;     /* drag coefficient             (n_alpha x n_plunge), or NULL: not known */
     double *cm;     /* moment about mid-chord, nose-up positive (n_alpha x n_plunge) */
     /* Range of attached, linear behaviour: beyond it an oscillation counts as stalled. [rad] */
     double linear_from, linear_to;
     struct stall_def stall;
 };
+
+/* Without drag the loads count none of the section; what reports drag has to say so. */
+bool polar_def_has_drag(const struct polar_def *def);
 
 /* Appends what is wrong with the table. */
 void polar_def_check(const struct polar_def *def, const char *pointer, struct failure_list *out);

@@ -186,6 +186,7 @@ static void march(const struct loop_def *d, struct station *s, struct loop_resul
         add_stall(s, alpha, &m, i == 0, c);
         add_network(s, d, alpha, &m, c);
         add_apparent_mass(s, &m, c);
+        c[LOOP_CD] = polar_def_has_drag(d->polar) ? c[LOOP_CD] : (double)NAN;
         for (int k = 0; k < LOOP_QUANTITIES; k++) {
             r->value[num_at(i, k, r->n)] = c[k];
         }

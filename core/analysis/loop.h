@@ -33,8 +33,8 @@ enum loop_quantity {
     LOOP_ALPHA,  /* angle of the chord, theta [rad] */
     LOOP_PLUNGE, /* w/c */
     LOOP_CL,     /* normal to the undisturbed stream */
-    LOOP_CD,
-    LOOP_CM, /* about mid-chord, nose-up */
+    LOOP_CD,     /* NaN if the polar has no drag */
+    LOOP_CM,     /* about mid-chord, nose-up */
     LOOP_QUANTITIES
 };
 

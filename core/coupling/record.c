@@ -6,6 +6,11 @@
 #include <assert.h>
 #include <stdlib.h>
 
+int record_window(double window, double time_step)
+{
+    return (int)fmin(floor(window / time_step + 0.5), LIMIT_STEPS) + 1;
+}
+
 enum status record_init(const struct model *m, struct record *out)
 {
     struct record r = {.n_mode = m->n_mode,
@@ -18,7 +23,9 @@ enum status record_init(const struct model *m, struct record *out)
     r.history = malloc(rows * (size_t)(HISTORY_MODAL + 2 * r.n_mode) * sizeof *r.history);
     r.stalled = malloc(rows);
     r.sample = malloc((size_t)r.sample_capacity * (size_t)(r.n_column + 1) * sizeof *r.sample);
-    if (r.history == NULL || r.stalled == NULL || r.sample == NULL) {
+    const int window = record_window(m->def.output.mean_window, m->def.solver.time_step);
+    const enum status st = span_mean_init(m->n_station, window, r.capacity, &r.span);
+    if (r.history == NULL || r.stalled == NULL || r.sample == NULL || st != ST_OK) {
         record_done(&r);
         return ST_NO_MEMORY;
     }
@@ -31,6 +38,7 @@ void record_done(struct record *r)
     free(r->history);
     free(r->stalled);
     free(r->sample);
+    span_mean_done(&r->span);
     *r = (struct record){0};
 }
 
@@ -82,6 +90,10 @@ static int put_channel(const struct model *m, const struct workspace *w, enum ch
         return put_vector(r, row, column, 1, &total->cd, 1.0);
     case CHANNEL_CM:
         return put_vector(r, row, column, 1, &total->cm, 1.0);
+    case CHANNEL_EFFICIENCY: {
+        const double efficiency = total->lift / total->drag;
+        return put_vector(r, row, column, 1, &efficiency, 1.0);
+    }
     case CHANNEL_MODAL_AMPLITUDE:
         return put_vector(r, row, column, nm, modal, 1.0);
     case CHANNEL_MODAL_VELOCITY:
@@ -134,6 +146,12 @@ void record_push(const struct model *m, const struct workspace *w, struct record
         r->history[num_at(r->n, HISTORY_MODAL + j, r->capacity)] = modal[j];
     }
     r->stalled[r->n] = w->any_stalled;
+    const double *const span[SPAN_VALUES] = {[SPAN_CL] = w->cl,
+                                             [SPAN_CD] = w->cd,
+                                             [SPAN_CM] = w->cm,
+                                             [SPAN_INDUCED] = w->induced,
+                                             [SPAN_ALPHA] = w->alpha};
+    span_mean_push(&r->span, span);
     if (r->n % m->def.output.sample_every == 0) {
         int column = 0;
         for (int i = 0; i < m->def.output.n_channel; i++) {

@@ -5,6 +5,7 @@
 #define AEROM_CORE_COUPLING_RECORD_H
 
 #include "core/coupling/loads.h"
+#include "core/coupling/span_mean.h"
 
 /* Columns of the history; after the fixed ones come n_mode amplitudes and n_mode velocities. */
 enum history_column {
@@ -25,8 +26,12 @@ struct record {
     int n_column;
     int sample_capacity;
     int n_sample;
-    double *sample; /* (sample_capacity x n_column) */
+    double *sample;        /* (sample_capacity x n_column) */
+    struct span_mean span; /* station values over the window of the means */
 };
+
+/* Samples in the last `window` seconds of a march, both ends counted. */
+int record_window(double window, double time_step);
 
 MUST_CHECK enum status record_init(const struct model *m, struct record *out);
 void record_done(struct record *r);

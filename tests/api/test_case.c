@@ -230,6 +230,12 @@ static const struct bad bad_cases[] = {
     {"{" HEAD "," BEAM "," FLOW ",\"aerodynamics\":{\"polar\":\"plate-4pct-channel\","
      "\"lifting_line\":{\"walls\":\"root_and_far\",\"width_m\":0.3}}," SOLVER "}",
      "/aerodynamics/lifting_line/width_m", "out_of_range"},
+    {"{" HEAD "," BEAM "," FLOW ",\"aerodynamics\":{\"polar\":\"plate-4pct-channel\","
+     "\"lifting_line\":{\"walls\":\"root\",\"width_m\":0.4}}," SOLVER "}",
+     "/aerodynamics/lifting_line/width_m", "unexpected"},
+    {"{" HEAD "," BEAM "," FLOW ",\"aerodynamics\":{\"polar\":\"plate-4pct-channel\","
+     "\"lifting_line\":{\"tip_correction\":\"prandtl\"}}," SOLVER "}",
+     "/aerodynamics/lifting_line/tip_correction", "unknown_value"},
     {"{" HEAD "," BEAM "," FLOW "," AERO ",\"solver\":{\"duration_s\":1,\"modes\":2,"
      "\"start\":{\"type\":\"amplitudes\",\"amplitudes\":[1,2],\"velocities\":[1]}}}",
      "/solver/start/velocities", "wrong_length"},

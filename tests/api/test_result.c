@@ -91,6 +91,7 @@ static cJSON *document(struct fixture *f, const char *name, const struct sim_res
     } schemas[] = {
         {"summary", "#/components/schemas/Summary"},
         {"damping", "#/components/schemas/Damping"},
+        {"loads", "#/components/schemas/SpanLoads"},
         {"modes", "#/components/schemas/Modes"},
         {"section", "#/components/schemas/SectionResult"},
         {"static", "#/components/schemas/StaticResult"},
@@ -167,6 +168,22 @@ static void test_simulation(void **state)
                         api_case_def(f->c)->aero.polar->hash);
     cJSON *d = document(f, "damping", r);
     assert_true(cJSON_Compare(d, cJSON_GetObjectItemCaseSensitive(s, "damping"), true));
+    json_free(d);
+    d = document(f, "loads", r);
+    assert_near_abs(number(d, "window_s/1"), 0.5, 1e-12);
+    assert_near_rel(number(d, "z_m/5"), 0.37 * 5.5 / 6.0, 1e-12);
+    assert_near_abs(number(d, "cl/0"), r->loads.cl[0], 0.0);
+    assert_near_abs(number(d, "alpha_deg/3"), num_deg(r->loads.alpha[3]), 1e-12);
+    double lift = 0.0, drag = 0.0, moment = 0.0;
+    for (int i = 0; i < 6; i++) {
+        lift += r->loads.lift[i] * 0.37 / 6.0;
+        drag += r->loads.drag[i] * 0.37 / 6.0;
+        moment += r->loads.moment[i] * 0.37 / 6.0;
+    }
+    assert_near_rel(number(s, "means/lift_n"), lift, 1e-12);
+    assert_near_rel(number(s, "means/drag_n"), drag, 1e-12);
+    assert_near_rel(number(s, "means/moment_n_m"), moment, 1e-12);
+    assert_near_rel(number(s, "means/efficiency"), lift / drag, 1e-12);
     json_free(d);
     json_free(s);
     json_free(document(f, "modes", r));

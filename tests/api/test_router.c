@@ -280,6 +280,8 @@ static void test_documents(void **state)
     } table[] = {
         {CASE_SIMULATION, JOB_DONE, "summary", 200, NULL},
         {CASE_SIMULATION, JOB_DONE, "damping", 200, NULL},
+        {CASE_SIMULATION, JOB_DONE, "loads", 200, NULL},
+        {CASE_MODES, JOB_DONE, "loads", 404, "no_document"},
         {CASE_SIMULATION, JOB_DONE, "modes", 200, NULL},
         {CASE_SIMULATION, JOB_DONE, "section", 200, NULL},
         {CASE_SIMULATION, JOB_DONE, "series", 200, NULL},

@@ -330,7 +330,7 @@ class Remote(unittest.TestCase):
 
     def test_get_and_cancel(self):
         for word, path in (("summary", "/summary"), ("case", "/case"), ("modes", "/modes"),
-                           ("damping", "/damping"), ("section", "/section"), ("series", "/series"),
+                           ("damping", "/damping"), ("loads", "/loads"), ("section", "/section"), ("series", "/series"),
                            ("job", "")):
             self.server.asked.clear()
             result = self.play((200, {"a": 1}), arguments=["get", "j", word])

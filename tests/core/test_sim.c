@@ -47,6 +47,20 @@ static void the_report_hangs_together(void **state)
     }
     assert_near_rel(r->means.cl, cl, 1e-10);
     assert_near_rel(r->means.window_from, 2.0, 1e-9);
+    /* The loads along the span are of the same window and sum up to its means. */
+    double lift = 0.0, drag = 0.0;
+    assert_int_equal(r->loads.n_station, 16);
+    for (int i = 0; i < 16; i++) {
+        lift += r->loads.lift[i] * 0.37 / 16.0;
+        drag += r->loads.drag[i] * 0.37 / 16.0;
+        assert_near_rel(r->loads.z[i], 0.37 * (i + 0.5) / 16.0, 1e-12);
+    }
+    assert_near_rel(r->loads.window_from, 2.0, 1e-9);
+    assert_near_rel(r->loads.window_to, 3.0, 1e-9);
+    assert_near_rel(lift, r->means.lift, 1e-11);
+    assert_near_rel(drag, r->means.drag, 1e-11);
+    assert_near_rel(r->means.efficiency, r->means.lift / r->means.drag, 1e-15);
+    assert_true(r->loads.induced[15] > r->loads.induced[0]); /* downwash grows towards the tip */
     double position = 0.0, velocity = 0.0;
     for (int j = 0; j < 4; j++) {
         position += r->contribution_position[j];

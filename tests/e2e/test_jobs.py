@@ -32,7 +32,7 @@ class Jobs(DaemonTest):
         self.assertEqual(summary["timing"]["steps"], 100)
         self.assertEqual(summary["identity"]["content_hash"], body["content_hash"])
         self.assertEqual(len(summary["modes"]), 4)
-        for document in ("damping", "modes", "section"):
+        for document in ("damping", "loads", "modes", "section"):
             status, _, result = d.request("GET", f"{path}/{document}")
             self.assertEqual((document, status), (document, 200))
             self.assertTrue(result)

@@ -38,7 +38,7 @@ static void test_simulation(void **state)
     assert_true(o.result.cpu_s > 0.0);
     assert_true(strlen(o.result.verdict) > 0);
     assert_non_null(strstr(document(&o, "summary"), o.result.verdict));
-    static const char *const expected[] = {"summary", "damping", "modes", "section"};
+    static const char *const expected[] = {"summary", "damping", "loads", "modes", "section"};
     for (size_t i = 0; i < sizeof expected / sizeof expected[0]; i++) {
         assert_non_null(document(&o, expected[i]));
     }
