@@ -22,14 +22,14 @@ static const struct field_range tolerance = {
 static const struct field_range step_tolerance = {.min = 1e-15, .max = 1.0, .below_max = true};
 static const struct field_range twist = {.min = 0.0, .max = 180.0, .above_min = true};
 static const struct field_range share = {.min = 0.0, .max = 1.0};
+static const struct field_range speeds = {.min = 2, .max = LIMIT_SPEEDS};
+static const struct field_range speed_tolerance = {.min = 1e-12, .max = 0.1};
 static const struct field_range sampling = {.min = 1, .max = LIMIT_STEPS};
 
 /* By the enums of core. */
-const char *const case_kind_names[] = {[CASE_SIMULATION] = "simulation",
-                                       [CASE_MODES] = "modes",
-                                       [CASE_SECTION] = "section",
-                                       [CASE_STATIC] = "static",
-                                       NULL};
+const char *const case_kind_names[] = {
+    [CASE_SIMULATION] = "simulation", [CASE_MODES] = "modes",         [CASE_SECTION] = "section",
+    [CASE_STATIC] = "static",         [CASE_STABILITY] = "stability", NULL};
 const char *const dynamic_names[] = {[DYNAMIC_NONE] = "none",
                                      [DYNAMIC_NETWORK] = "network",
                                      [DYNAMIC_ATTACHED] = "attached",
@@ -68,16 +68,17 @@ static const char *const start_names[] = {[START_REST] = "rest",
 enum {
     ALL = 0,
     SIMULATION = CASE_IN_SIMULATION,
-    MODAL = CASE_IN_SIMULATION | CASE_IN_MODES,
-    STATIC = CASE_IN_STATIC
+    FLOWS = CASE_IN_SIMULATION | CASE_IN_STABILITY,
+    MODAL = CASE_IN_SIMULATION | CASE_IN_MODES | CASE_IN_STABILITY,
+    STATIC = CASE_IN_STATIC,
+    STABILITY = CASE_IN_STABILITY
 };
 
 static const struct field flow_fields[] = {
     NUMBER("speed_m_s", def.flow.speed, SIMULATION, positive, .required = true),
-    NUMBER("density_kg_m3", def.flow.density, SIMULATION, not_negative, .unit = 1.0),
-    NUMBER("kinematic_viscosity_m2_s", def.flow.kinematic_viscosity, SIMULATION, positive,
-           .unit = 1.0),
-    NUMBER("incidence_deg", def.flow.incidence, SIMULATION, incidence, .unit = FIELD_DEGREE),
+    NUMBER("density_kg_m3", def.flow.density, FLOWS, not_negative, .unit = 1.0),
+    NUMBER("kinematic_viscosity_m2_s", def.flow.kinematic_viscosity, FLOWS, positive, .unit = 1.0),
+    NUMBER("incidence_deg", def.flow.incidence, FLOWS, incidence, .unit = FIELD_DEGREE),
     {0},
 };
 
@@ -115,11 +116,11 @@ static const struct field aerodynamics_fields[] = {
     {.key = "polar",
      .kind = FIELD_CUSTOM,
      .required = true,
-     .kinds = SIMULATION,
+     .kinds = FLOWS,
      .read = case_read_polar,
      .write = case_write_polar},
-    OBJECT("dynamic", dynamic_fields, .kinds = SIMULATION),
-    OBJECT("lifting_line", lifting_line_fields, .kinds = SIMULATION, .nullable = true,
+    OBJECT("dynamic", dynamic_fields, .kinds = FLOWS),
+    OBJECT("lifting_line", lifting_line_fields, .kinds = FLOWS, .nullable = true,
            .offset = AT(def.aero.lifting_line)),
     {0},
 };
@@ -183,15 +184,23 @@ static const struct field solver_fields[] = {
     NUMBER("tolerance", def.solver.tolerance, SIMULATION, step_tolerance, .unit = 1.0),
     INTEGER("load_order", def.solver.load_order, SIMULATION, load_order),
     OBJECT("start", start_fields, .kinds = SIMULATION),
-    NUMBER("modal_damping_ratio", def.solver.modal_damping, SIMULATION, damping, .unit = 1.0),
+    NUMBER("modal_damping_ratio", def.solver.modal_damping, FLOWS, damping, .unit = 1.0),
     {.key = "modal_damping_ratios",
      .kind = FIELD_ARRAY,
-     .kinds = SIMULATION,
+     .kinds = FLOWS,
      .offset = AT(def.solver.mode_damping),
      .count = AT(def.solver.n_mode_damping),
      .max = LIMIT_MODES,
      .range = &damping},
     OBJECT("stop", stop_fields, .kinds = SIMULATION),
+    {0},
+};
+
+static const struct field stability_fields[] = {
+    NUMBER("from_m_s", def.stability.from, STABILITY, positive, .required = true),
+    NUMBER("to_m_s", def.stability.to, STABILITY, positive, .required = true),
+    INTEGER("count", def.stability.count, STABILITY, speeds),
+    NUMBER("tolerance", def.stability.tolerance, STABILITY, speed_tolerance, .unit = 1.0),
     {0},
 };
 
@@ -237,22 +246,23 @@ const struct field case_fields[] = {
      .write = case_write_materials},
     {.key = "polars",
      .kind = FIELD_CUSTOM,
-     .kinds = SIMULATION,
+     .kinds = FLOWS,
      .omit = case_has_no_own_polar,
      .read = case_read_polars,
      .write = case_write_polars},
     {.key = "networks",
      .kind = FIELD_CUSTOM,
-     .kinds = SIMULATION,
+     .kinds = FLOWS,
      .omit = case_has_no_own_network,
      .read = case_read_networks,
      .write = case_write_networks},
     OBJECT("beam", beam_fields, .required = true, .finish = beam_finish),
     OBJECT("loads", loads_fields, .kinds = STATIC),
-    OBJECT("flow", flow_fields, .required = true, .kinds = SIMULATION),
-    OBJECT("aerodynamics", aerodynamics_fields, .required = true, .kinds = SIMULATION,
+    OBJECT("flow", flow_fields, .required = true, .kinds = FLOWS),
+    OBJECT("aerodynamics", aerodynamics_fields, .required = true, .kinds = FLOWS,
            .finish = aerodynamics_finish),
     OBJECT("solver", solver_fields, .required = true, .kinds = MODAL),
+    OBJECT("stability", stability_fields, .required = true, .kinds = STABILITY),
     OBJECT("output", output_fields, .kinds = SIMULATION | STATIC),
     {0},
 };

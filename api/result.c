@@ -159,7 +159,7 @@ static void write_reference(struct json_out *out, const char *key, const char *n
 
 static void write_identity(struct json_out *out, const struct result_view *v)
 {
-    const bool flows = v->def->kind == CASE_SIMULATION;
+    const bool flows = case_kind_flows(v->def->kind);
     const struct polar_def *polar = flows ? v->def->aero.polar : NULL;
     const struct network_def *network = flows ? v->def->aero.network : NULL;
     json_key(out, "identity");
@@ -184,6 +184,9 @@ static void write_summary(struct json_out *out, const struct result_view *v)
         result_modes_members(out, v);
     } else if (v->def->kind == CASE_STATIC) {
         result_static_members(out, v);
+    } else if (v->def->kind == CASE_STABILITY) {
+        result_stability_members(out, v);
+        write_mode_list(out, v->r);
     } else {
         result_matrix_members(out, &v->r->section);
     }
@@ -200,9 +203,13 @@ static const struct {
     const char *name;
     void (*write)(struct json_out *out, const struct result_view *v);
 } documents[] = {
-    {"summary", write_summary},        {"damping", write_damping},
-    {"loads", result_write_loads},     {"modes", result_write_modes},
-    {"section", result_write_section}, {"static", result_write_static},
+    {"summary", write_summary},
+    {"damping", write_damping},
+    {"loads", result_write_loads},
+    {"modes", result_write_modes},
+    {"section", result_write_section},
+    {"static", result_write_static},
+    {"stability", result_write_stability},
 };
 
 const char *const *result_documents(enum case_kind kind)
@@ -212,10 +219,12 @@ const char *const *result_documents(enum case_kind kind)
     static const char *const modes[] = {"summary", "modes", "section", NULL};
     static const char *const section[] = {"summary", "section", NULL};
     static const char *const statics[] = {"summary", "static", "section", NULL};
+    static const char *const stability[] = {"summary", "stability", "modes", "section", NULL};
     static const char *const *const lists[] = {[CASE_SIMULATION] = simulation,
                                                [CASE_MODES] = modes,
                                                [CASE_SECTION] = section,
-                                               [CASE_STATIC] = statics};
+                                               [CASE_STATIC] = statics,
+                                               [CASE_STABILITY] = stability};
     assert((unsigned)kind < sizeof lists / sizeof lists[0]);
     return lists[kind];
 }

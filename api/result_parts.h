@@ -22,6 +22,7 @@ void result_write_loads(struct json_out *out, const struct result_view *v);
 void result_write_modes(struct json_out *out, const struct result_view *v);
 void result_write_section(struct json_out *out, const struct result_view *v);
 void result_write_static(struct json_out *out, const struct result_view *v);
+void result_write_stability(struct json_out *out, const struct result_view *v);
 
 /* The modes in full: "modes". */
 void result_modes_members(struct json_out *out, const struct result_view *v);
@@ -29,6 +30,8 @@ void result_modes_members(struct json_out *out, const struct result_view *v);
 void result_matrix_members(struct json_out *out, const struct section_result *s);
 /* The scalars that describe a section: stiffnesses, centres, couplings. */
 void result_section_members(struct json_out *out, const struct section_result *s);
+/* Verdict, divergence, flutter, least damped oscillation. */
+void result_stability_members(struct json_out *out, const struct result_view *v);
 /* Motion of the tip, reactions, first-ply failure. */
 void result_static_members(struct json_out *out, const struct result_view *v);
 

@@ -24,6 +24,7 @@ const struct route route_table[] = {
     {"GET", "/v1/jobs/{id}/loads", handle_document, NULL, "loads"},
     {"GET", "/v1/jobs/{id}/modes", handle_document, NULL, "modes"},
     {"GET", "/v1/jobs/{id}/section", handle_document, NULL, "section"},
+    {"GET", "/v1/jobs/{id}/stability", handle_document, NULL, "stability"},
     {"GET", "/v1/jobs/{id}/static", handle_document, NULL, "static"},
     {"GET", "/v1/jobs/{id}/summary", handle_document, NULL, "summary"},
     {"GET", "/v1/materials", handle_materials, NULL, NULL},

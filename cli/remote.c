@@ -221,6 +221,7 @@ static const char *document_tail(const char *document, bool csv)
         {"modes", "/modes"},
         {"section", "/section"},
         {"static", "/static"},
+        {"stability", "/stability"},
     };
     if (strcmp(document, "series") == 0) {
         return csv ? "/series?format=csv" : "/series";

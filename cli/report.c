@@ -105,6 +105,16 @@ static void print_numbers(FILE *out, const char *title, const cJSON *object)
     }
 }
 
+/* An instability: its numbers, or that the range has none. */
+static void print_instability(FILE *out, const char *title, const cJSON *point)
+{
+    if (cJSON_IsString(point)) {
+        (void)fprintf(out, "%s\n  none in the range\n", title);
+    } else {
+        print_numbers(out, title, point);
+    }
+}
+
 static void print_first_failure(FILE *out, const cJSON *failure)
 {
     if (!cJSON_IsObject(failure)) {
@@ -154,9 +164,11 @@ bool report_summary(FILE *out, const char *json, size_t size)
         (void)fprintf(out, "verdict: %s\n  %s\n", verdict->valuestring,
                       text_of(summary, "verdict_reason"));
     }
-    print_number(out, "E* %.4g", "", member(summary, "e_star"));
-    print_number(out, ", Reynolds number %.4g", "", member(summary, "reynolds"));
-    (void)fputs(verdict != NULL ? "\n" : "", out);
+    print_number(out, "E* %.4g, ", "", member(summary, "e_star"));
+    print_number(out, "Reynolds number %.4g\n", "", member(summary, "reynolds"));
+    print_instability(out, "divergence", member(summary, "divergence"));
+    print_instability(out, "flutter", member(summary, "flutter"));
+    print_numbers(out, "least damped oscillation", member(summary, "least_damped"));
     const cJSON *modes = member(summary, "modes");
     if (modes != NULL) {
         (void)fputs("natural modes\n", out);

@@ -26,6 +26,7 @@ void case_def_defaults(struct case_def *def)
                    .twist_max = num_rad(60.0),
                    .plunge_max = 1.0,
                    .outside_max = 1.0},
+        .stability = {.count = 40, .tolerance = 1e-6},
         .output = {.n_channel = 5,
                    .channel = {CHANNEL_TIP_PLUNGE, CHANNEL_TIP_TWIST, CHANNEL_CL, CHANNEL_CM,
                                CHANNEL_CD},
@@ -146,12 +147,15 @@ static void check_flow(const struct case_def *def, struct failure_list *out)
 {
     const struct flow_def *f = &def->flow;
     const struct range rule[] = {
-        {"/flow/speed_m_s", f->speed, 0.0, INFINITY, true, false},
         {"/flow/density_kg_m3", f->density, 0.0, INFINITY, false, false},
         {"/flow/kinematic_viscosity_m2_s", f->kinematic_viscosity, 0.0, INFINITY, true, false},
         {"/flow/incidence_deg", num_deg(f->incidence), -90.0, 90.0, false, false},
     };
     RANGE_CHECK(rule, out);
+    if (def->kind != CASE_STABILITY) {
+        const struct range speed = {"/flow/speed_m_s", f->speed, 0.0, INFINITY, true, false};
+        range_check(1, &speed, out);
+    }
 }
 
 static void check_aero(const struct case_def *def, struct failure_list *out)
@@ -235,6 +239,38 @@ static void check_size(const struct case_def *def, struct failure_list *out)
     }
 }
 
+static void check_damping(const struct solver_def *s, struct failure_list *out)
+{
+    const struct range all = {
+        "/solver/modal_damping_ratio", s->modal_damping, 0.0, 1.0, false, true};
+    range_check(1, &all, out);
+    for (int i = 0; i < s->n_mode_damping && i < LIMIT_MODES; i++) {
+        char pointer[64];
+        (void)snprintf(pointer, sizeof pointer, "/solver/modal_damping_ratios/%d", i);
+        const struct range r = {pointer, s->mode_damping[i], 0.0, 1.0, false, true};
+        range_check(1, &r, out);
+    }
+}
+
+/* Speeds in order; what remembers without states cannot be linearised. */
+static void check_stability(const struct case_def *def, struct failure_list *out)
+{
+    const struct stability_def *s = &def->stability;
+    const struct range rule[] = {
+        {"/stability/from_m_s", s->from, 0.0, INFINITY, true, false},
+        {"/stability/to_m_s", s->to, s->from, INFINITY, true, false},
+        {"/stability/count", s->count, 2, LIMIT_SPEEDS, false, false},
+        {"/stability/tolerance", s->tolerance, 1e-12, 0.1, false, false},
+    };
+    RANGE_CHECK(rule, out);
+    if (def->aero.dynamic == DYNAMIC_NETWORK) {
+        failure_set(failure_add(out), ST_INVALID, "/aerodynamics/dynamic/type", "no_states",
+                    "none, attached or dynamic_stall", "network",
+                    "a network knows the past by a sliding mean, not by states, and cannot be "
+                    "linearised: march it with kind simulation");
+    }
+}
+
 static void check_solver(const struct case_def *def, struct failure_list *out)
 {
     const struct solver_def *s = &def->solver;
@@ -244,7 +280,6 @@ static void check_solver(const struct case_def *def, struct failure_list *out)
         {"/solver/duration_s", s->duration, 0.0, INFINITY, true, false},
         {"/solver/tolerance", s->tolerance, 1e-15, 1.0, false, true},
         {"/solver/load_order", s->load_order, 0, LIMIT_LOAD_ORDER, false, false},
-        {"/solver/modal_damping_ratio", s->modal_damping, 0.0, 1.0, false, true},
         {"/solver/stop/twist_max_deg", num_deg(s->twist_max), 0.0, 180.0 + 1e-9, true, false},
         {"/solver/stop/plunge_max_lengths", s->plunge_max, 0.0, INFINITY, true, false},
         {"/solver/stop/outside_polar_max", s->outside_max, 0.0, 1.0, false, false},
@@ -260,12 +295,6 @@ static void check_solver(const struct case_def *def, struct failure_list *out)
         (void)snprintf(got, sizeof got, "%d values", s->n_amplitude);
         failure_set(failure_add(out), ST_INVALID, "/solver/start/amplitudes", "too_many",
                     "at most one per mode", got, "more amplitudes than modes");
-    }
-    for (int i = 0; i < s->n_mode_damping && i < LIMIT_MODES; i++) {
-        char pointer[64];
-        (void)snprintf(pointer, sizeof pointer, "/solver/modal_damping_ratios/%d", i);
-        const struct range r = {pointer, s->mode_damping[i], 0.0, 1.0, false, true};
-        range_check(1, &r, out);
     }
     for (int i = 0; i < s->n_amplitude && i < LIMIT_MODES; i++) {
         if (!isfinite(s->amplitude[i]) || !isfinite(s->velocity[i])) {
@@ -287,10 +316,16 @@ void case_def_check(const struct case_def *def, struct failure_list *out)
     if (def->kind == CASE_STATIC) {
         check_static(def, out);
     }
-    if (def->kind == CASE_SIMULATION) {
+    if (case_kind_flows(def->kind)) {
         check_flow(def, out);
         check_aero(def, out);
+        check_damping(&def->solver, out);
+    }
+    if (def->kind == CASE_SIMULATION) {
         check_drag(def, out);
         check_solver(def, out);
+    }
+    if (def->kind == CASE_STABILITY) {
+        check_stability(def, out);
     }
 }

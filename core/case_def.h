@@ -13,7 +13,14 @@
 
 #include <stdbool.h>
 
-enum case_kind { CASE_SIMULATION, CASE_MODES, CASE_SECTION, CASE_STATIC, CASE_KIND_COUNT };
+enum case_kind {
+    CASE_SIMULATION,
+    CASE_MODES,
+    CASE_SECTION,
+    CASE_STATIC,
+    CASE_STABILITY,
+    CASE_KIND_COUNT
+};
 /* What is added to the steady polar: nothing; a network; the wake's lag and apparent mass; these
  * and the lags of stall. */
 enum dynamic_type { DYNAMIC_NONE, DYNAMIC_NETWORK, DYNAMIC_ATTACHED, DYNAMIC_STALL };
@@ -98,6 +105,12 @@ struct solver_def {
     double outside_max;               /* stop rule: share of the run outside the polar, default 1 */
 };
 
+struct stability_def {
+    double from, to;  /* speeds [m/s], 0 < from < to */
+    int count;        /* of equidistant speeds, both ends included, default 40 */
+    double tolerance; /* of the speeds found, relative, default 1e-6 */
+};
+
 struct output_def {
     int n_channel;
     enum channel channel[CHANNEL_COUNT];
@@ -116,8 +129,15 @@ struct case_def {
     struct flow_def flow;
     struct aero_def aero;
     struct solver_def solver;
+    struct stability_def stability;
     struct output_def output;
 };
+
+/* Does a case of this kind have a flow and aerodynamics in the modes of the beam? */
+static inline bool case_kind_flows(enum case_kind kind)
+{
+    return kind == CASE_SIMULATION || kind == CASE_STABILITY;
+}
 
 /* Fills every default. */
 void case_def_defaults(struct case_def *def);

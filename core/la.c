@@ -174,16 +174,39 @@ enum status la_least_squares(int m, int n, double *a, int n_rhs, double *b)
     return st;
 }
 
-enum status la_eigenvalues(int n, double *a, double *re, double *im)
+double la_determinant(int n, double *a, int *pivot)
+{
+    const lapack_int info = LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, a, n, pivot);
+    assert(info >= 0);
+    double product = info == 0 ? 1.0 : 0.0;
+    for (int i = 0; i < n; i++) {
+        product *= a[i + (ptrdiff_t)n * i] * (pivot[i] == i + 1 ? 1.0 : -1.0);
+    }
+    return product;
+}
+
+/* Right eigenvectors too unless vector is NULL. */
+static enum status eigen(int n, double *a, double *re, double *im, double *vector)
 {
     const int size = 8 * n;
     double *work = malloc((size_t)size * sizeof *work);
     if (work == NULL) {
         return ST_NO_MEMORY;
     }
-    const lapack_int info = LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', 'N', n, a, n, re, im, NULL, 1,
-                                               NULL, 1, work, size);
+    const lapack_int info =
+        LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', vector != NULL ? 'V' : 'N', n, a, n, re, im, NULL,
+                           1, vector, vector != NULL ? n : 1, work, size);
     assert(info >= 0);
     free(work);
     return info == 0 ? ST_OK : ST_NOT_CONVERGED;
+}
+
+enum status la_eigenvalues(int n, double *a, double *re, double *im)
+{
+    return eigen(n, a, re, im, NULL);
+}
+
+enum status la_eigen(int n, double *a, double *re, double *im, double *vector)
+{
+    return eigen(n, a, re, im, vector);
 }

@@ -46,6 +46,14 @@ MUST_CHECK enum status la_svd_right(int m, int n, double *a, double *s, double *
  * holds x in its first n rows. ST_SINGULAR when a has no full rank. */
 MUST_CHECK enum status la_least_squares(int m, int n, double *a, int n_rhs, double *b);
 
+/* Determinant of a (n x n), destroyed; pivot (n). Allocates nothing. */
+double la_determinant(int n, double *a, int *pivot);
+
+/* Eigenvalues re + i im (n each) and right eigenvectors of a general matrix a (n x n), destroyed.
+ * Of a complex pair the one with the positive imaginary part comes first, and columns j, j + 1 of
+ * vector (n x n) hold the real and imaginary part of its vector. */
+MUST_CHECK enum status la_eigen(int n, double *a, double *re, double *im, double *vector);
+
 /* Eigenvalues re + i im of a general matrix a (n x n), destroyed. */
 MUST_CHECK enum status la_eigenvalues(int n, double *a, double *re, double *im);
 

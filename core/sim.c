@@ -328,6 +328,23 @@ static enum status run_static(struct sim *s, struct failure *fail)
     return st;
 }
 
+static enum status run_stability(struct sim *s, const struct sim_control *control,
+                                 struct failure *fail)
+{
+    const enum status st = stability_run(&s->model, control, &s->result.stability);
+    if (st == ST_NOT_CONVERGED) {
+        failure_set(fail, st, "/stability/from_m_s", "no_equilibrium", "a lower speed", NULL,
+                    "no static equilibrium was found at or below the lowest speed: beyond "
+                    "divergence, or on a stalled slope");
+    } else if (st != ST_OK) {
+        failure_set(fail, st, "/stability", status_name(st), NULL, NULL,
+                    "the stability could not be computed: %s", status_text(st));
+    } else {
+        s->result.verdict = stability_verdict(&s->result.stability, s->result.verdict_reason);
+    }
+    return st;
+}
+
 enum status sim_run(struct sim *sim, const struct sim_control *control, struct failure *fail)
 {
     const enum case_kind kind = sim->model.def.kind;
@@ -337,13 +354,15 @@ enum status sim_run(struct sim *sim, const struct sim_control *control, struct f
                     "the warping function could not be computed: %s", status_text(st));
         return st;
     }
-    if (kind == CASE_MODES || kind == CASE_SIMULATION) {
+    if (kind == CASE_MODES || case_kind_flows(kind)) {
         report_modes(&sim->model, &sim->result);
     }
     if (kind == CASE_SIMULATION) {
         st = run_simulation(sim, control, fail);
     } else if (kind == CASE_STATIC) {
         st = run_static(sim, fail);
+    } else if (kind == CASE_STABILITY) {
+        st = run_stability(sim, control, fail);
     }
     if (st == ST_OK && control != NULL && control->progress != NULL) {
         atomic_store(control->progress, 1.0);
@@ -367,6 +386,7 @@ void sim_destroy(struct sim *sim)
 {
     if (sim != NULL) {
         statics_done(&sim->result.statics);
+        stability_done(&sim->result.stability);
         record_done(&sim->record);
         workspace_done(&sim->workspace);
         model_done(&sim->model);

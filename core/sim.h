@@ -9,6 +9,7 @@
 
 #include "core/analysis/damping.h"
 #include "core/analysis/span_loads.h"
+#include "core/analysis/stability.h"
 #include "core/analysis/statics.h"
 #include "core/analysis/verdict.h"
 #include "core/coupling/march.h"
@@ -77,7 +78,8 @@ struct sim_result {
     double e_star;    /* E_l (h/c)^3 / (rho V^2 / 2), E_l of the stiffest ply; NaN without */
     double reynolds;
     struct section_result section;
-    struct static_result statics; /* CASE_STATIC */
+    struct static_result statics;      /* CASE_STATIC */
+    struct stability_result stability; /* CASE_STABILITY */
     int n_mode;
     struct mode_result mode[LIMIT_MODES];
     struct {

@@ -8,11 +8,26 @@
 enum { ITERATIONS_MAX = 60, HALVINGS = 12 };
 static const double tolerance = 1e-11; /* residual over load, in the energy norm */
 
+/* Load of c_l = 1e-9 everywhere, in the energy norm: less than that is rounding. A beam that is in
+ * equilibrium undeformed has nothing else to measure its residual by. */
+static double smallest_load(const struct model *m)
+{
+    double sum = 0.0;
+    for (int j = 0; j < m->n_mode; j++) {
+        double load = 0.0;
+        for (int i = 0; i < m->n_station; i++) {
+            load += m->chord[i] * m->station_v[num_at(i, j, m->n_station)];
+        }
+        sum += num_sq(1e-9 * m->dynamic_pressure * m->station_length * load) / m->omega2[j];
+    }
+    return sum;
+}
+
 /* r = omega^2 q - load(q); returns its size relative to the load. */
 static double residual_of(const struct model *m, struct workspace *w, double *r)
 {
     loads_evaluate(m, w, true);
-    double left = 0.0, size = 1e-300;
+    double left = 0.0, size = 1e-300 + smallest_load(m);
     for (int j = 0; j < m->n_mode; j++) {
         r[j] = m->omega2[j] * w->q[j] - w->load[j];
         left += r[j] * r[j] / m->omega2[j];

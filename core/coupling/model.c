@@ -253,6 +253,9 @@ static enum status build_aero(struct model *m)
 {
     const struct aero_def *a = &m->def.aero;
     const struct beam_def *b = &m->def.beam;
+    if (m->def.kind == CASE_STABILITY) {
+        m->def.flow.speed = m->def.stability.from;
+    }
     m->dynamic_pressure = 0.5 * m->def.flow.density * num_sq(m->def.flow.speed);
     enum status st = polar_create(a->polar, &m->polar);
     if (st == ST_OK && a->dynamic == DYNAMIC_NETWORK) {
@@ -292,11 +295,11 @@ enum status model_build(const struct case_def *def, struct model *out, struct fa
         pointer = "/beam";
         st = build_beam(&m);
     }
-    if (st == ST_OK && def->kind == CASE_SIMULATION) {
+    if (st == ST_OK && case_kind_flows(def->kind)) {
         part = "transfer between modes and stations";
         st = build_transfer(&m);
     }
-    if (st == ST_OK && def->kind == CASE_SIMULATION) {
+    if (st == ST_OK && case_kind_flows(def->kind)) {
         part = "aerodynamic model";
         pointer = "/aerodynamics";
         st = build_aero(&m);

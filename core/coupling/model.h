@@ -17,9 +17,9 @@ struct model {
     struct centres centres;
     double thickness;   /* of the root section, overall [m]; NaN with properties */
     struct beam beam;   /* not for CASE_SECTION */
-    struct modes modes; /* CASE_MODES and CASE_SIMULATION */
+    struct modes modes; /* all but CASE_STATIC and CASE_SECTION */
 
-    /* The rest only for CASE_SIMULATION. */
+    /* The rest only where case_kind_flows. */
     struct polar *polar;
     struct network *network;          /* NULL without one */
     struct lifting_line lifting_line; /* n = 0 without one */

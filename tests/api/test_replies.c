@@ -192,7 +192,8 @@ static void test_checker_refuses(void **state)
         bool fits;
     } table[] = {
         {"Flow", "{\"speed_m_s\":1}", true},
-        {"Flow", "{}", false},
+        {"StabilityRange", "{\"from_m_s\":1,\"to_m_s\":2}", true},
+        {"StabilityRange", "{}", false},
         {"Flow", "{\"speed_m_s\":0}", false},
         {"Flow", "{\"speed_m_s\":\"1\"}", false},
         {"Flow", "{\"speed_m_s\":1,\"x\":1}", false},

@@ -141,7 +141,8 @@ class Run(unittest.TestCase):
                                          "timing", "identity"},
                           "modes": {"modes", "section"},
                           "section": {"section", "stiffness", "stiffness_condensed", "mass"},
-                          "static": {"tip", "reactions", "first_ply_failure", "section"}}[kind]
+                          "static": {"tip", "reactions", "first_ply_failure", "section"},
+                          "stability": {"verdict", "divergence", "flutter", "least_damped", "section"}}[kind]
                 self.assertEqual(wanted - set(summary), set())
 
     def test_standard_input_gives_the_same_answer(self):

@@ -1,6 +1,5 @@
 /* Wings given by stiffness numbers: closed forms of the cantilever, published wings, and the
  * paper's beam by the numbers its own section reports. */
-#include "api/case.h"
 #include "core/num.h"
 #include "tests/support/fixture.h"
 #include "tests/verify/built.h"
@@ -134,32 +133,6 @@ static void taper(struct check_list *list)
               "axis at 0.3 chord, tip torque: plunge of mid-chord over twist, m");
 }
 
-/* Model of a shipped case, malloc'ed. */
-static struct model *shipped(const char *name)
-{
-    struct library *lib = NULL;
-    struct failure fail = {0};
-    struct failure_list *problems = calloc(1, sizeof *problems);
-    struct model *m = calloc(1, sizeof *m);
-    struct api_case *c = NULL;
-    const char *path, *text;
-    size_t size;
-    if (library_create_builtin(&lib, &fail) != ST_OK || problems == NULL || m == NULL) {
-        exit(EXIT_FAILURE);
-    }
-    for (int i = 0; (path = library_example_case(i, &text, &size)) != NULL; i++) {
-        if (strstr(path, name) != NULL &&
-            api_case_parse(lib, text, size, "", &c, problems) == ST_OK) {
-            built_model(api_case_def(c), m);
-            break;
-        }
-    }
-    api_case_destroy(c);
-    library_destroy(lib);
-    free(problems);
-    return m;
-}
-
 static void published(struct check_list *list)
 {
     static const struct {
@@ -178,13 +151,15 @@ static void published(struct check_list *list)
         {"wing-16m-modes", "16 m wing", 4, 39.356, "[C], validation data 3.4"},
     };
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
-        struct model *m = shipped(row[i].file);
+        struct built_case *shipped = built_shipped(row[i].file);
+        struct model m;
+        built_model(built_case_def(shipped), &m);
         check_add(list, CHECK_RELATIVE, "rad/s",
-                  row[i].mode < m->modes.n_mode ? m->modes.omega[row[i].mode] : (double)NAN,
+                  row[i].mode < m.modes.n_mode ? m.modes.omega[row[i].mode] : (double)NAN,
                   row[i].omega, 2e-4, row[i].source, "%s in a vacuum, mode %d", row[i].wing,
                   row[i].mode + 1);
-        model_done(m);
-        free(m);
+        model_done(&m);
+        built_release(shipped);
     }
 }
 

@@ -1,5 +1,7 @@
 #include "tests/verify/built.h"
 
+#include "api/case.h"
+#include "api/library.h"
 #include "core/la.h"
 #include "core/num.h"
 
@@ -87,4 +89,44 @@ struct sim *built_run(const struct case_def *def)
     require(sim_create(def, &sim, &fail), "sim_create", &fail);
     require(sim_run(sim, NULL, &fail), "sim_run", &fail);
     return sim;
+}
+
+struct built_case {
+    struct library *library;
+    struct api_case *c;
+};
+
+struct built_case *built_shipped(const char *name)
+{
+    struct failure fail = {0};
+    struct failure_list *problems = calloc(1, sizeof *problems);
+    struct built_case *b = calloc(1, sizeof *b);
+    char file[128];
+    const char *path, *text;
+    size_t size;
+    require(problems != NULL && b != NULL ? ST_OK : ST_NO_MEMORY, name, NULL);
+    require(library_create_builtin(&b->library, &fail), name, &fail);
+    (void)snprintf(file, sizeof file, "%s.json", name);
+    for (int i = 0; (path = library_example_case(i, &text, &size)) != NULL && b->c == NULL; i++) {
+        const char *slash = strrchr(path, '/');
+        if (strcmp(slash != NULL ? slash + 1 : path, file) == 0) {
+            require(api_case_parse(b->library, text, size, "", &b->c, problems), name,
+                    &problems->item[0]);
+        }
+    }
+    require(b->c != NULL ? ST_OK : ST_INVALID, name, NULL);
+    free(problems);
+    return b;
+}
+
+const struct case_def *built_case_def(const struct built_case *c)
+{
+    return api_case_def(c->c);
+}
+
+void built_release(struct built_case *c)
+{
+    api_case_destroy(c->c);
+    library_destroy(c->library);
+    free(c);
 }

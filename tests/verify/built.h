@@ -30,6 +30,12 @@ struct beam_motion built_tip(const struct case_def *def);
 /* Frequency [Hz] of mode number j (0 first). */
 double built_hz(const struct model *m, int j);
 
+/* A shipped case by the name of its file, without ending. Its definition borrows from it. */
+struct built_case;
+struct built_case *built_shipped(const char *name);
+const struct case_def *built_case_def(const struct built_case *c);
+void built_release(struct built_case *c);
+
 /* A simulation that must run; destroy with sim_destroy. */
 struct sim *built_run(const struct case_def *def);
 

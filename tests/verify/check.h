@@ -63,6 +63,7 @@ struct check_group {
     X(stalled_line)                                                                                \
     X(unsteady)                                                                                    \
     X(dynamic_stall)                                                                               \
+    X(stability)                                                                                   \
     X(integrators)                                                                                 \
     X(examples)                                                                                    \
     X(damping)                                                                                     \
