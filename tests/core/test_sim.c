@@ -22,6 +22,44 @@ static struct sim *run(const struct case_def *def)
     return sim;
 }
 
+/* A wing in stall, with a lift that falls: the counters say that the lifting line was smoothed, and
+ * it converges at every step; attached it is not smoothed. */
+static void stall_is_counted(void **state)
+{
+    (void)state;
+    enum { ANGLES = 7 };
+    double alpha[ANGLES], plunge[1] = {0.0}, cm[ANGLES] = {0};
+    double cl[ANGLES] = {-0.5, -0.45, -0.9, 0.0, 0.9, 0.45, 0.5};
+    double cd[ANGLES] = {0.6, 0.3, 0.05, 0.02, 0.05, 0.3, 0.6};
+    for (int i = 0; i < ANGLES; i++) {
+        alpha[i] = num_rad(10.0 * (i - ANGLES / 2));
+    }
+    const struct polar_def stalling = {.name = "stalling",
+                                       .n_alpha = ANGLES,
+                                       .n_plunge = 1,
+                                       .alpha = alpha,
+                                       .plunge = plunge,
+                                       .cl = cl,
+                                       .cd = cd,
+                                       .cm = cm,
+                                       .linear_from = alpha[2],
+                                       .linear_to = alpha[4]};
+    for (int k = 0; k < 2; k++) {
+        struct case_def def;
+        fixture_paper_beam(-45.0, &stalling, &def);
+        def.flow.speed = 4.0;
+        def.flow.incidence = num_rad(k == 0 ? 3.0 : 16.0);
+        def.solver.duration = 0.3;
+        struct sim *sim = run(&def);
+        const struct sim_result *r = sim_result(sim);
+        assert_int_equal(r->counters.not_converged, 0);
+        assert_true(r->counters.lifting_line_residual <= 1e-9);
+        assert_int_equal(r->counters.lifting_line_regularised > 1000, k == 1);
+        assert_int_equal(r->counters.lifting_line_smoothing > 0.0, k == 1);
+        sim_destroy(sim);
+    }
+}
+
 static void the_report_hangs_together(void **state)
 {
     (void)state;
@@ -279,6 +317,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_report_hangs_together),
+        cmocka_unit_test(stall_is_counted),
         cmocka_unit_test(wash_follows_the_ply_angle),
         cmocka_unit_test(modes_are_labelled),
         cmocka_unit_test(starts_from_equilibrium_and_stays),

@@ -21,8 +21,9 @@ struct rectangle {
     enum tip_correction tip;
 };
 
-/* c_l / alpha at the stations for uniform incidence; returns the mean, C_L / alpha. */
-static double lift_slope(const struct rectangle *g, int n, double *cl)
+/* c_l / alpha at the stations for uniform incidence, and induced drag over squared lift,
+ * C_Di/C_L^2; returns the mean, C_L / alpha. */
+static double solve(const struct rectangle *g, int n, double *cl, double *drag)
 {
     struct polar_def def = fixture_linear_polar(2.0 * NUM_PI, 0.0, 0.0, 1.0);
     struct polar *polar = NULL;
@@ -45,16 +46,24 @@ static double lift_slope(const struct rectangle *g, int n, double *cl)
         abort();
     }
     const struct lifting_line_report r = lifting_line_solve(&ll, polar, alpha, plunge, &state);
-    double sum = r.converged ? 0.0 : (double)NAN;
+    double sum = r.converged ? 0.0 : (double)NAN, induced = 0.0;
     for (int i = 0; i < n; i++) {
         cl[i] = state.cl[i] / angle;
         sum += cl[i];
+        induced += cl[i] * state.induced[i] / angle;
     }
+    *drag = induced * n / (sum * sum);
     lifting_line_state_done(&state);
     lifting_line_done(&ll);
     polar_destroy(polar);
     polar_def_done(&def);
     return sum / n;
+}
+
+static double lift_slope(const struct rectangle *g, int n, double *cl)
+{
+    double drag = 0.0;
+    return solve(g, n, cl, &drag);
 }
 
 /* The border of a uniform element stands off the root of the circulation at the tip: the error
@@ -69,9 +78,9 @@ static double extrapolated(const struct rectangle *g, int n)
 }
 
 static const struct {
-    double ratio, slope; /* of the whole span to the chord; C_L alpha */
-} glauert[] = {{4.0, 4.0284}, {6.0, 4.5304},  {7.4, 4.7586},
-               {8.0, 4.8377}, {10.0, 5.0468}, {20.0, 5.5443}};
+    double ratio, slope, delta; /* of the whole span to the chord; C_L alpha; excess induced drag */
+} glauert[] = {{4.0, 4.0284, 0.0285}, {6.0, 4.5304, 0.0483},  {7.4, 4.7586, 0.0619},
+               {8.0, 4.8377, 0.0676}, {10.0, 5.0468, 0.0859}, {20.0, 5.5443, 0.1617}};
 enum { RATIOS = sizeof glauert / sizeof glauert[0] };
 
 static void slopes(struct check_list *list)
@@ -126,6 +135,23 @@ static void tip_inset(struct check_list *list)
                   fabs(lift_slope(&g, 16, cl) - limit) / fabs(lift_slope(&plain, 16, cl) - limit),
                   0.0, gap < 0.01 ? 0.35 : 0.25, "extrapolated",
                   "far wall %g m beyond the tip, 16 elements: error with inset over without", gap);
+    }
+}
+
+/* C_Di = C_L^2 (1 + delta)/(pi AR). */
+static void induced_drag(struct check_list *list)
+{
+    static const int elements[] = {16, 64};
+    double cl[STATIONS_MAX];
+    for (int i = 0; i < RATIOS; i++) {
+        const double expected = (1.0 + glauert[i].delta) / (NUM_PI * glauert[i].ratio);
+        for (int k = 0; k < 2; k++) {
+            const struct rectangle g = {0.5 * glauert[i].ratio, 1.0, WALLS_ROOT, 0.0, TIP_INSET};
+            double drag = 0.0;
+            (void)solve(&g, elements[k], cl, &drag);
+            check_add(list, CHECK_RELATIVE, "", drag, expected, 0.005, source,
+                      "C_Di/C_L^2, AR %g, %d elements, tip inset", glauert[i].ratio, elements[k]);
+        }
     }
 }
 
@@ -227,6 +253,7 @@ static void fill(struct check_list *list)
 {
     slopes(list);
     tip_inset(list);
+    induced_drag(list);
     distribution(list);
     far_wall(list);
     independence(list);
