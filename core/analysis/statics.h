@@ -18,7 +18,7 @@ struct static_sample {
 /* Ply states at one position of a static case. */
 struct stress_result {
     double z;
-    double strain[SECTION_STRAIN_COUNT];
+    double strain[SECTION_WIDE_COUNT];
     int n_ply;
     struct ply_state *ply; /* (n_ply), owned */
 };

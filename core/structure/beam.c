@@ -7,19 +7,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NODE = BEAM_NODE_FREEDOMS, OUTER = BEAM_OUTER, MOTION = SECTION_MOTION_COUNT };
+enum {
+    NODE = BEAM_NODE_MOST,
+    OUTER = BEAM_OUTER,
+    STRAIN = SECTION_WIDE_COUNT,
+    MOTION = SECTION_WIDE_MOTION
+};
 
 int beam_index(const struct beam *b, int node, enum beam_freedom freedom)
 {
-    if (node > 0) {
-        return NODE * (node - 1) + (int)freedom;
+    if ((int)freedom >= b->node_freedoms) {
+        return -1;
     }
-    const int last = NODE * b->mesh.n_element;
+    if (node > 0) {
+        return b->node_freedoms * (node - 1) + (int)freedom;
+    }
+    const int last = b->node_freedoms * b->mesh.n_element;
     switch (b->root) {
     case ROOT_WARPING_RESTRAINED:
         return -1;
-    case ROOT_WARPING_FREE:
-        return freedom == D_DTHETA ? last : -1;
+    case ROOT_WARPING_FREE: /* theta' and what follows it */
+        return freedom >= D_DTHETA ? last + (int)(freedom - D_DTHETA) : -1;
     case ROOT_FREE:
         return last + (int)freedom;
     }
@@ -29,8 +37,9 @@ int beam_index(const struct beam *b, int node, enum beam_freedom freedom)
 
 enum beam_freedom beam_freedom_at(const struct beam *b, int index)
 {
-    const bool warping = b->root == ROOT_WARPING_FREE && index == NODE * b->mesh.n_element;
-    return warping ? D_DTHETA : (enum beam_freedom)(index % NODE);
+    const int last = b->node_freedoms * b->mesh.n_element;
+    const bool warping = b->root == ROOT_WARPING_FREE && index >= last;
+    return (enum beam_freedom)(warping ? (int)D_DTHETA + index - last : index % b->node_freedoms);
 }
 
 /* Index of local freedom i of element e. */
@@ -67,8 +76,8 @@ static void scatter_inertia(struct beam *b, int node, int n, const double *m)
             if (row >= 0) {
                 b->inertia[num_at(row, d, b->n_dof)] += sum;
             }
-            if (at_root) {
-                b->root_inertia[num_at(i, d, NODE)] += sum;
+            if (at_root && i < BEAM_NODE_FREEDOMS) {
+                b->root_inertia[num_at(i, d, BEAM_NODE_FREEDOMS)] += sum;
             }
         }
     }
@@ -141,12 +150,18 @@ enum status beam_build(const struct beam_spec *spec, struct beam *out)
 {
     const struct beam_mesh *mesh = spec->mesh;
     const int n_element = mesh->n_element;
-    static const int root_freedoms[] = {
-        [ROOT_WARPING_RESTRAINED] = 0, [ROOT_WARPING_FREE] = 1, [ROOT_FREE] = NODE};
-    const int n = NODE * n_element + root_freedoms[spec->root];
+    const bool wide = spec->shear == SHEAR_RETAINED && spec->section->wide;
+    const int node_freedoms = wide ? (int)BEAM_NODE_MOST : (int)BEAM_NODE_FREEDOMS;
+    const int root_freedoms[] = {[ROOT_WARPING_RESTRAINED] = 0,
+                                 [ROOT_WARPING_FREE] = node_freedoms - D_DTHETA,
+                                 [ROOT_FREE] = node_freedoms};
+    const int n = node_freedoms * n_element + root_freedoms[spec->root];
     const size_t size = (size_t)n * (size_t)n, nodes = (size_t)n_element + 1;
-    struct beam b = {
-        .length = mesh->z[n_element], .shear = spec->shear, .root = spec->root, .n_dof = n};
+    struct beam b = {.length = mesh->z[n_element],
+                     .shear = spec->shear,
+                     .root = spec->root,
+                     .node_freedoms = node_freedoms,
+                     .n_dof = n};
     b.k = calloc(2 * size + 3 * (size_t)n, sizeof *b.k);
     b.inner = malloc((size_t)(BEAM_INNER * OUTER) * (size_t)n_element * sizeof *b.inner);
     if (spec->shear == SHEAR_RETAINED) {
@@ -254,14 +269,14 @@ struct beam_motion beam_motion_at(const struct beam *b, const double *x, double 
 }
 
 void beam_strain_at(const struct beam *b, const double *x, double z,
-                    double strain[SECTION_STRAIN_COUNT])
+                    double strain[SECTION_WIDE_COUNT])
 {
     struct element_rows rows;
     double all[ELEMENT_ALL];
     const int e = rows_at(b, z, &rows);
     gather(b, x, e, all);
-    for (int r = 0; r < SECTION_STRAIN_COUNT; r++) {
-        strain[r] = row_times(rows.strain, SECTION_STRAIN_COUNT, r, all);
+    for (int r = 0; r < STRAIN; r++) {
+        strain[r] = row_times(rows.strain, STRAIN, r, all);
     }
 }
 

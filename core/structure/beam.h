@@ -6,8 +6,9 @@
  * is u' and -phi is v'. Cubic Hermite for u, v and theta. DEVIATION: w is linear plus two internal
  * modes condensed in the element; linear alone cannot follow the axial strain that bending of a
  * one-sided laminate asks for (N = 0) and locks. With retained shear each element also has linear
- * shear strains inside, condensed as well. A struct beam owns its arrays; beam_done accepts a
- * zeroed struct. Immutable after beam_build. */
+ * shear strains inside, condensed as well; with flexible walls besides the nodes have sigma, the
+ * surplus of the warping (warping.h), interpolated like w. A struct beam owns its arrays; beam_done
+ * accepts a zeroed struct. Immutable after beam_build. */
 #ifndef AEROM_CORE_STRUCTURE_BEAM_H
 #define AEROM_CORE_STRUCTURE_BEAM_H
 
@@ -15,7 +16,8 @@
 
 #include <stdbool.h>
 
-enum beam_freedom { D_W, D_U, D_DU, D_V, D_DV, D_THETA, D_DTHETA, BEAM_NODE_FREEDOMS };
+enum beam_freedom { D_W, D_U, D_DU, D_V, D_DV, D_THETA, D_DTHETA, D_SURPLUS, BEAM_NODE_MOST };
+enum { BEAM_NODE_FREEDOMS = D_SURPLUS }; /* those of any beam */
 enum { BEAM_GAUSS = 4 }; /* points of an element at which its section is asked for */
 
 /* Are the transverse shears condensed (zero shear force strain energy) or kept (Timoshenko)? */
@@ -54,7 +56,7 @@ struct beam_spec {
     const struct beam_mass *mass; /* each at a node of the mesh */
 };
 
-enum { BEAM_OUTER = 2 * BEAM_NODE_FREEDOMS, BEAM_INNER = 8 };
+enum { BEAM_OUTER = 2 * BEAM_NODE_MOST, BEAM_INNER = 10 };
 
 /* In k and m the internal freedoms of an element follow its nodes statically. Their own inertia
  * adds w^2 r x to them in a motion x of angular frequency w, r = K_ii^-1 (M_io + M_ii inner). */
@@ -68,10 +70,11 @@ struct beam {
     struct beam_mesh mesh;
     enum shear_model shear;
     enum root_warping root;
-    int n_dof;       /* free ones; a free root warping or root comes last */
-    double *k;       /* stiffness (n_dof x n_dof) */
-    double *m;       /* mass      (n_dof x n_dof) */
-    double *inertia; /* inertial load of unit accelerations along x, y, z (n_dof x 3) */
+    int node_freedoms; /* BEAM_NODE_FREEDOMS or BEAM_NODE_MOST */
+    int n_dof;         /* free ones; a free root warping or root comes last */
+    double *k;         /* stiffness (n_dof x n_dof) */
+    double *m;         /* mass      (n_dof x n_dof) */
+    double *inertia;   /* inertial load of unit accelerations along x, y, z (n_dof x 3) */
     /* The same on the freedoms of the root node, clamped or not (BEAM_NODE_FREEDOMS x 3): what of
      * the weight goes straight into the clamp. */
     double root_inertia[BEAM_NODE_FREEDOMS * 3];
@@ -100,10 +103,10 @@ struct beam_motion {
 };
 struct beam_motion beam_motion_at(const struct beam *b, const double *x, double z);
 
-/* Strains of the section at z (order of enum section_strain); the shears are zero when condensed.
- */
+/* Strains of the section at z (order of enum section_strain, then that of warping.h); the shears
+ * are zero when condensed. The strain S_THETA is chi, the twist rate less S_ETA. */
 void beam_strain_at(const struct beam *b, const double *x, double z,
-                    double strain[SECTION_STRAIN_COUNT]);
+                    double strain[SECTION_WIDE_COUNT]);
 
 /* A force along x, y, z [N] and a moment about x, y, z [N m], or both per length. */
 struct beam_load {

@@ -6,11 +6,11 @@
 #include <string.h>
 
 enum {
-    NODE = BEAM_NODE_FREEDOMS,
+    NODE = BEAM_NODE_MOST,
     OUTER = BEAM_OUTER,
     ALL = ELEMENT_ALL,
-    STRAIN = SECTION_STRAIN_COUNT,
-    MOTION = SECTION_MOTION_COUNT
+    STRAIN = SECTION_WIDE_COUNT,
+    MOTION = SECTION_WIDE_MOTION
 };
 
 /* Exact to degree 7: the mass of cubics is of degree 6. */
@@ -37,64 +37,80 @@ static struct hermite hermite_at(double t, double h)
     };
 }
 
-/* One transverse direction: displacement, rotation, curvature and shear rows. The rotation freedom
- * r is that of the section, so the slope of the displacement at the ends is r + gamma. `sign` turns
- * the curvature into the strain: psi' = u'' - gamma', phi' = -(v'' - gamma'). */
+enum { NONE = -1 };
+
+/* One motion across the beam or about it: its rate is a freedom of the nodes, the rotation of the
+ * section or the amplitude of its warping, and a shear (gamma, eta) inside the element:
+ * v' = rotation + gamma. `sign` turns the rate of the rotation into the strain: phi = -(v' -
+ * gamma).
+ */
 struct direction {
     int freedom;          /* first node freedom: displacement, then rotation */
     int inner;            /* its first internal freedom */
     int motion, rotation; /* rows of motion */
+    int amplitude;        /* row of strain that is the rotation itself */
     int curvature, shear; /* rows of strain */
     double sign;
 };
 
-static const struct direction directions[2] = {
-    {D_U, IN_GX_MEAN, M_U, M_DU, S_PSI, S_GXZ, 1.0},
-    {D_V, IN_GY_MEAN, M_V, M_DV, S_PHI, S_GYZ, -1.0},
+static const struct direction directions[3] = {
+    {D_U, IN_GX_MEAN, M_U, M_DU, NONE, S_PSI, S_GXZ, 1.0},
+    {D_V, IN_GY_MEAN, M_V, M_DV, NONE, S_PHI, S_GYZ, -1.0},
+    {D_THETA, IN_ETA_MEAN, M_THETA, M_DTHETA, S_THETA, S_THETA2, S_ETA, 1.0},
 };
+
+static void put_column(const struct direction *d, int column, double value, double rotation,
+                       double curvature, struct element_rows *out)
+{
+    out->motion[d->motion + MOTION * column] = value;
+    out->motion[d->rotation + MOTION * column] = rotation;
+    out->strain[d->curvature + STRAIN * column] = d->sign * curvature;
+    if (d->amplitude != NONE) {
+        out->strain[d->amplitude + STRAIN * column] = rotation;
+    }
+}
 
 static void put_direction(const struct direction *d, const struct hermite *f, double t, double h,
                           struct element_rows *out)
 {
     for (int j = 0; j < 4; j++) { /* value and slope at both ends */
         const int column = NODE * (j / 2) + d->freedom + j % 2;
-        out->motion[d->motion + MOTION * column] = f->value[j];
-        out->motion[d->rotation + MOTION * column] = f->first[j];
-        out->strain[d->curvature + STRAIN * column] = d->sign * f->second[j];
+        put_column(d, column, f->value[j], f->first[j], f->second[j], out);
     }
     for (int part = 0; part < 2; part++) { /* gamma = mean + slope (2t - 1) */
         const int column = OUTER + d->inner + part;
         const double at_start = part == 0 ? 1.0 : -1.0;
         const double gamma = part == 0 ? 1.0 : 2.0 * t - 1.0, rate = part == 0 ? 0.0 : 2.0 / h;
-        out->motion[d->motion + MOTION * column] = at_start * f->value[1] + f->value[3];
-        out->motion[d->rotation + MOTION * column] = at_start * f->first[1] + f->first[3] - gamma;
-        out->strain[d->curvature + STRAIN * column] =
-            d->sign * (at_start * f->second[1] + f->second[3] - rate);
+        put_column(d, column, at_start * f->value[1] + f->value[3],
+                   at_start * f->first[1] + f->first[3] - gamma,
+                   at_start * f->second[1] + f->second[3] - rate, out);
         out->strain[d->shear + STRAIN * column] = gamma;
     }
 }
 
-/* Twist: theta' = chi + eta, where the node's freedom chi is the amplitude of the warping. Without
- * eta chi is theta'. */
-static void put_twist(const struct hermite *f, double t, double h, struct element_rows *out)
+/* What is linear between the nodes with two internal modes that vanish there. */
+struct along {
+    int freedom, inner; /* node freedom, first internal freedom */
+    int motion;         /* row of motion */
+    int value, rate;    /* rows of strain: it and its derivative */
+};
+
+static const struct along alongs[2] = {
+    {D_W, IN_W_EVEN, M_W, NONE, S_W},
+    {D_SURPLUS, IN_SURPLUS_EVEN, M_SURPLUS, S_SURPLUS, S_SURPLUS_RATE},
+};
+
+static void put_along(const struct along *d, double t, double h, struct element_rows *out)
 {
+    const int column[4] = {d->freedom, NODE + d->freedom, OUTER + d->inner, OUTER + d->inner + 1};
+    const double value[4] = {1.0 - t, t, t * (1.0 - t), t * (1.0 - t) * (2.0 * t - 1.0)};
+    const double rate[4] = {-1.0, 1.0, 1.0 - 2.0 * t, -6.0 * t * t + 6.0 * t - 1.0};
     for (int j = 0; j < 4; j++) {
-        const int column = NODE * (j / 2) + D_THETA + j % 2;
-        out->motion[M_THETA + MOTION * column] = f->value[j];
-        out->motion[M_DTHETA + MOTION * column] = f->first[j];
-        out->strain[S_THETA + STRAIN * column] = f->first[j];
-        out->strain[S_THETA2 + STRAIN * column] = f->second[j];
-    }
-    for (int part = 0; part < 2; part++) { /* eta = mean + slope (2t - 1) */
-        const int column = OUTER + IN_ETA_MEAN + part;
-        const double at_start = part == 0 ? 1.0 : -1.0;
-        const double eta = part == 0 ? 1.0 : 2.0 * t - 1.0, rate = part == 0 ? 0.0 : 2.0 / h;
-        const double chi = at_start * f->first[1] + f->first[3] - eta;
-        out->motion[M_THETA + MOTION * column] = at_start * f->value[1] + f->value[3];
-        out->motion[M_DTHETA + MOTION * column] = chi;
-        out->strain[S_THETA + STRAIN * column] = chi;
-        out->strain[S_THETA2 + STRAIN * column] = at_start * f->second[1] + f->second[3] - rate;
-        out->eta[column] = eta;
+        out->motion[d->motion + MOTION * column[j]] = value[j];
+        out->strain[d->rate + STRAIN * column[j]] = rate[j] / h;
+        if (d->value != NONE) {
+            out->strain[d->value + STRAIN * column[j]] = value[j];
+        }
     }
 }
 
@@ -102,18 +118,12 @@ void element_rows(double t, double h, struct element_rows *out)
 {
     const struct hermite f = hermite_at(t, h);
     memset(out, 0, sizeof *out);
-    put_direction(&directions[0], &f, t, h, out);
-    put_direction(&directions[1], &f, t, h, out);
-    put_twist(&f, t, h, out);
-    out->strain[S_W + STRAIN * D_W] = -1.0 / h;
-    out->strain[S_W + STRAIN * (NODE + D_W)] = 1.0 / h;
-    out->motion[M_W + MOTION * D_W] = 1.0 - t;
-    out->motion[M_W + MOTION * (NODE + D_W)] = t;
-    /* Internal modes of w vanish at the ends: t(1-t) and t(1-t)(2t-1). */
-    out->motion[M_W + MOTION * (OUTER + IN_W_EVEN)] = t * (1.0 - t);
-    out->strain[S_W + STRAIN * (OUTER + IN_W_EVEN)] = (1.0 - 2.0 * t) / h;
-    out->motion[M_W + MOTION * (OUTER + IN_W_ODD)] = t * (1.0 - t) * (2.0 * t - 1.0);
-    out->strain[S_W + STRAIN * (OUTER + IN_W_ODD)] = (-6.0 * t * t + 6.0 * t - 1.0) / h;
+    for (int i = 0; i < 3; i++) {
+        put_direction(&directions[i], &f, t, h, out);
+    }
+    for (int i = 0; i < 2; i++) {
+        put_along(&alongs[i], t, h, out);
+    }
 }
 
 /* out (ALL x ALL) += weight * rows' * middle * rows; rows (stride x ALL), of which the first n rows
@@ -136,23 +146,6 @@ static void add_product(int n, int stride, const double *rows, const double *mid
                 sum += rows[r + stride * a] * product[r];
             }
             out[a + ALL * b] += sum;
-        }
-    }
-}
-
-/* Adds the energy of eta: twice with each strain and once with itself. */
-static void add_eta(const struct element_rows *rows, const double *stiffness, double weight,
-                    double *out)
-{
-    for (int b = 0; b < ALL; b++) {
-        double with_b = 0.0; /* force on eta from freedom b's strains */
-        for (int r = 0; r < STRAIN; r++) {
-            with_b += stiffness[r] * rows->strain[r + STRAIN * b];
-        }
-        for (int a = 0; a < ALL; a++) {
-            const double both = rows->eta[a] * with_b;
-            out[a + ALL * b] += weight * (both + stiffness[STRAIN] * rows->eta[a] * rows->eta[b]);
-            out[b + ALL * a] += weight * both;
         }
     }
 }
@@ -255,20 +248,23 @@ enum status element_build(const struct section *const section[BEAM_GAUSS], doubl
 {
     _Static_assert((int)STRAIN >= (int)MOTION, "the scratch of add_product holds either");
     const bool retained = shear == SHEAR_RETAINED;
-    const int n_strain = retained ? STRAIN : SECTION_CLASSIC;
-    const bool eta = retained && section[0]->has_warping_shear;
-    const int n_inner = eta ? BEAM_INNER : (retained ? IN_ETA_MEAN : IN_GX_MEAN);
+    const bool wide = retained && section[0]->wide;
+    const int n_inner = wide ? (int)BEAM_INNER : (int)(retained ? IN_ETA_MEAN : IN_GX_MEAN);
     double k[ALL * ALL] = {0}, m[ALL * ALL] = {0};
     for (int q = 0; q < BEAM_GAUSS; q++) {
         struct element_rows rows;
         element_rows(0.5 * (1.0 + gauss_point[q]), h, &rows);
         const double weight = 0.5 * h * gauss_weight[q];
         const struct section *s = section[q];
-        add_product(n_strain, STRAIN, rows.strain, retained ? s->stiffness : s->classic, weight, k);
-        if (eta) {
-            add_eta(&rows, s->warping_shear, weight, k);
+        if (wide) {
+            add_product(STRAIN, STRAIN, rows.strain, s->wide_stiffness, weight, k);
+            add_product(MOTION, MOTION, rows.motion, s->wide_mass, weight, m);
+        } else {
+            add_product(retained ? SECTION_STRAIN_COUNT : SECTION_CLASSIC, STRAIN, rows.strain,
+                        retained ? s->stiffness : s->classic, weight, k);
+            add_product(SECTION_MOTION_COUNT, MOTION, rows.motion,
+                        retained ? s->mass_retained : s->mass, weight, m);
         }
-        add_product(MOTION, MOTION, rows.motion, retained ? s->mass_retained : s->mass, weight, m);
     }
     double factor[BEAM_INNER * BEAM_INNER], t[BEAM_INNER * OUTER];
     const enum status st = solve_inner(k, n_inner, factor, t);

@@ -8,8 +8,8 @@
 
 enum { ELEMENT_ALL = BEAM_OUTER + BEAM_INNER };
 
-/* Internal freedoms: two modes of w, then constant and linear part of gamma_xz, gamma_yz
- * and of eta, the twist without warping (section.h). */
+/* Internal freedoms: two modes of w, constant and linear part of gamma_xz, gamma_yz and of eta, the
+ * twist without warping, and two modes of sigma, the surplus of the warping (warping.h). */
 enum beam_inner {
     IN_W_EVEN,
     IN_W_ODD,
@@ -18,14 +18,15 @@ enum beam_inner {
     IN_GY_MEAN,
     IN_GY_SLOPE,
     IN_ETA_MEAN,
-    IN_ETA_SLOPE
+    IN_ETA_SLOPE,
+    IN_SURPLUS_EVEN,
+    IN_SURPLUS_ODD
 };
 
 /* Rows at t in [0, 1] of an element of length h, all freedoms: node 1, node 2, inner. */
 struct element_rows {
-    double strain[SECTION_STRAIN_COUNT * ELEMENT_ALL];
-    double eta[ELEMENT_ALL];
-    double motion[SECTION_MOTION_COUNT * ELEMENT_ALL];
+    double strain[SECTION_WIDE_COUNT * ELEMENT_ALL];
+    double motion[SECTION_WIDE_MOTION * ELEMENT_ALL];
 };
 void element_rows(double t, double h, struct element_rows *out);
 

@@ -11,65 +11,52 @@ enum { N = SECTION_STRAIN_COUNT };
 
 /* (A.35): velocities of a wall point at n are linear in (u v w v' u' theta theta'), (A.1)-(A.3). */
 static void integrate_mass(const struct contour *c, const struct laminate *lam,
-                           const struct warping *w, double *out)
+                           const struct warping *w, int n, double *out)
 {
-    enum { U = SECTION_MOTION_COUNT };
-    memset(out, 0, (size_t)(U * U) * sizeof *out);
+    enum { U = SECTION_WIDE_MOTION };
+    memset(out, 0, (size_t)(n * n) * sizeof *out);
     for (int i = 0; i < c->n_element; i++) {
         const struct contour_element *el = &c->element[i];
         const struct laminate *l = &lam[el->laminate];
         for (int q = 0; q < CONTOUR_GAUSS; q++) {
             const struct contour_point p = contour_at(el, contour_gauss_point[q]);
             const double weight = contour_gauss_weight[q] * p.jacobian;
-            const double g = warping_at(w, el, &p, WARPING_VLASOV);
+            const struct warping_field f = warping_field_at(w, el, &p, WARPING_VLASOV);
             /* Displacement component a at n is mid[a] + n slope[a]. */
-            const double mid[3][U] = {{[M_U] = 1.0, [M_THETA] = -p.y},
-                                      {[M_V] = 1.0, [M_THETA] = p.x},
-                                      {[M_W] = 1.0, [M_DU] = -p.x, [M_DV] = -p.y, [M_DTHETA] = g}};
-            const double slope[3][U] = {
-                {[M_THETA] = p.dx},
-                {[M_THETA] = p.dy},
-                {[M_DU] = -p.dy, [M_DV] = p.dx, [M_DTHETA] = warping_across(w, el, &p)}};
-            for (int a = 0; a < U; a++) {
-                for (int b = 0; b < U; b++) {
+            const double mid[3][U] = {
+                {[M_U] = 1.0, [M_THETA] = -p.y},
+                {[M_V] = 1.0, [M_THETA] = p.x},
+                {[M_W] = 1.0, [M_DU] = -p.x, [M_DV] = -p.y, [M_DTHETA] = f.g, [M_SURPLUS] = f.g}};
+            const double slope[3][U] = {{[M_THETA] = p.dx},
+                                        {[M_THETA] = p.dy},
+                                        {[M_DU] = -p.dy,
+                                         [M_DV] = p.dx,
+                                         [M_DTHETA] = warping_across(w, el, &p),
+                                         [M_SURPLUS] = f.turn}};
+            for (int a = 0; a < n; a++) {
+                for (int b = 0; b < n; b++) {
                     double sum = 0.0;
                     for (int d = 0; d < 3; d++) {
                         sum += l->m0 * mid[d][a] * mid[d][b] + l->m2 * slope[d][a] * slope[d][b] +
                                l->m1 * (mid[d][a] * slope[d][b] + slope[d][a] * mid[d][b]);
                     }
-                    out[a + U * b] += weight * sum;
+                    out[a + n * b] += weight * sum;
                 }
             }
         }
     }
 }
 
-/* Twist without warping, eta: the wall turns as a whole, gamma_sz = r_n + n, gamma_nz = -r_t. */
-static void integrate_warping_shear(const struct contour *c, const struct laminate *lam,
-                                    const struct warping *w, double *out)
+/* Where a section does not warp (round tube), its surplus has no energy: a millionth of the torsion
+ * stiffness keeps it determined. */
+static void build_wide(const struct contour *c, const struct laminate *laminate,
+                       const struct warping *w, struct section *out)
 {
-    memset(out, 0, (size_t)(N + 1) * sizeof *out);
-    for (int i = 0; i < c->n_element * CONTOUR_GAUSS; i++) {
-        const struct contour_element *el = &c->element[i / CONTOUR_GAUSS];
-        const struct laminate *l = &lam[el->laminate];
-        const struct contour_point p = contour_at(el, contour_gauss_point[i % CONTOUR_GAUSS]);
-        const double weight = contour_gauss_weight[i % CONTOUR_GAUSS] * p.jacobian;
-        const double eta[WALL_STRAINS] = {[W_GAMMA] = p.r_n, [W_TWIST] = 1.0};
-        double e[WALL_STRAINS * N], stress[WALL_STRAINS], self = l->shear_zn * p.r_t * p.r_t;
-        warping_strains(w, el, &p, e);
-        for (int r = 0; r < WALL_STRAINS; r++) {
-            stress[r] = warping_flow(l->reduced, r, eta);
-            self += eta[r] * stress[r];
-        }
-        for (int k = 0; k < N; k++) {
-            double sum = -l->shear_zn * p.r_t * warping_normal_shear(w, el, &p, k);
-            for (int r = 0; r < WALL_STRAINS; r++) {
-                sum += stress[r] * e[num_at(r, k, WALL_STRAINS)];
-            }
-            out[k] += weight * sum;
-        }
-        out[N] += weight * self;
-    }
+    enum { WIDE = SECTION_WIDE_COUNT };
+    warping_stiffness(c, laminate, w, WIDE, out->wide_stiffness);
+    out->wide_stiffness[num_at(S_SURPLUS, S_SURPLUS, WIDE)] +=
+        1e-6 * out->stiffness[num_at(S_THETA, S_THETA, N)];
+    integrate_mass(c, laminate, w, SECTION_WIDE_MOTION, out->wide_mass);
 }
 
 enum status section_build(const struct contour *c, const struct laminate *laminate,
@@ -84,10 +71,12 @@ enum status section_build(const struct contour *c, const struct laminate *lamina
     }
     warping_stiffness(c, laminate, &classic, SECTION_CLASSIC, s.classic);
     warping_stiffness(c, laminate, &retained, N, s.stiffness);
-    integrate_mass(c, laminate, &classic, s.mass);
-    integrate_mass(c, laminate, &retained, s.mass_retained);
-    s.has_warping_shear = c->shear == WALL_SHEAR_FLEXIBLE;
-    integrate_warping_shear(c, laminate, &retained, s.warping_shear);
+    integrate_mass(c, laminate, &classic, SECTION_MOTION_COUNT, s.mass);
+    integrate_mass(c, laminate, &retained, SECTION_MOTION_COUNT, s.mass_retained);
+    s.wide = c->shear == WALL_SHEAR_FLEXIBLE;
+    if (s.wide) {
+        build_wide(c, laminate, &retained, &s);
+    }
     if (!num_all_finite(SECTION_CLASSIC * SECTION_CLASSIC, s.classic) ||
         !num_all_finite(N * N, s.stiffness)) {
         st = ST_NOT_FINITE;

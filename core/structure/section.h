@@ -16,6 +16,7 @@
 #include <stdbool.h>
 
 enum section_motion { M_U, M_V, M_W, M_DV, M_DU, M_THETA, M_DTHETA, SECTION_MOTION_COUNT };
+enum { M_SURPLUS = SECTION_MOTION_COUNT, SECTION_WIDE_MOTION };
 
 struct section {
     double
@@ -24,12 +25,11 @@ struct section {
     double mass[SECTION_MOTION_COUNT * SECTION_MOTION_COUNT];   /* (A.35), order of U there */
     /* The same with v', u' read as -phi, psi. */
     double mass_retained[SECTION_MOTION_COUNT * SECTION_MOTION_COUNT];
-    /* Flexible walls, retained shears: stiffness of eta = theta' - chi against the strains (the
-     * columns of `stiffness`) and, last, itself, where chi is the amplitude of the warping; at a
-     * clamp that holds the warping the section can still twist by eta. Not used with rigid walls.
-     */
-    bool has_warping_shear;
-    double warping_shear[SECTION_STRAIN_COUNT + 1];
+    /* Flexible walls and retained shears: the warping has amplitudes of its own. Stiffness of the
+     * strains SECTION_WIDE_COUNT, and mass with sigma last; else not used. */
+    bool wide;
+    double wide_stiffness[SECTION_WIDE_COUNT * SECTION_WIDE_COUNT];
+    double wide_mass[SECTION_WIDE_MOTION * SECTION_WIDE_MOTION];
     bool shear_unknown; /* rows of the shears in `stiffness` are NaN: core/structure/properties.h */
 };
 

@@ -103,8 +103,8 @@ static void search_point(const struct search *s, const struct contour_element *e
     const int layup = shape_wall_layup(s->shape, el->laminate);
     const struct layup *l = &s->shape->layup[layup];
     const struct laminate *lam = &s->laminate[el->laminate];
-    double unit[WALL_STRAINS * SECTION_STRAIN_COUNT], e[WALL_STRAINS];
-    warping_strains(s->warping, el, &p, unit);
+    double unit[WALL_STRAINS * SECTION_WIDE_COUNT], normal[SECTION_WIDE_COUNT], e[WALL_STRAINS];
+    warping_wide_strains(s->warping, el, &p, unit, normal);
     combine(unit, s->n_strain, s->strain, e);
     const struct laminate_cross cross = laminate_cross_strain(lam, s->shape->chordwise, e);
     double lower = lam->lower;
@@ -129,7 +129,7 @@ static void search_point(const struct search *s, const struct contour_element *e
 }
 
 enum status static_ply_states(const struct shape *shape, enum shear_model shear,
-                              const double strain[SECTION_STRAIN_COUNT], struct ply_state *out,
+                              const double strain[SECTION_WIDE_COUNT], struct ply_state *out,
                               int *n)
 {
     static const double place[3] = {-1.0, 0.0, 1.0}; /* ends and middle of an element */
@@ -146,7 +146,7 @@ enum status static_ply_states(const struct shape *shape, enum shear_model shear,
                            .contour = &contour,
                            .laminate = laminate,
                            .warping = shear == SHEAR_RETAINED ? &retained : &classic,
-                           .n_strain = shear == SHEAR_RETAINED ? (int)SECTION_STRAIN_COUNT
+                           .n_strain = shear == SHEAR_RETAINED ? (int)SECTION_WIDE_COUNT
                                                                : (int)SECTION_CLASSIC,
                            .strain = strain,
                            .worst = worst,

@@ -22,11 +22,11 @@ struct ply_state {
     double index, reserve;
 };
 
-/* Ply states at section strains (order of enum section_strain): for each layup and ply the point of
+/* Ply states at section strains (those of beam_strain_at): for each layup and ply the point of
  * the largest index, or, without strengths, of the largest strain energy. `out` holds
  * LIMIT_LAYUPS * LIMIT_PLIES states, *n are filled. */
 MUST_CHECK enum status static_ply_states(const struct shape *shape, enum shear_model shear,
-                                         const double strain[SECTION_STRAIN_COUNT],
+                                         const double strain[SECTION_WIDE_COUNT],
                                          struct ply_state *out, int *n);
 
 /* Tsai-Wu index of a stress, with F12 = -sqrt(F11 F22)/2, and the factor on the stress that makes

@@ -3,41 +3,84 @@
 #include "core/num.h"
 
 #include <assert.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { N = SECTION_STRAIN_COUNT };
+enum { N = SECTION_STRAIN_COUNT, WIDE = SECTION_WIDE_COUNT };
 
 const double contour_gauss_point[CONTOUR_GAUSS] = {-0.774596669241483377, 0.0,
                                                    0.774596669241483377};
 const double contour_gauss_weight[CONTOUR_GAUSS] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
 
-static double at_nodes(const struct contour_element *el, const double value[3],
-                       const double *column)
+struct warping_basis warping_basis_at(const struct warping *w, const struct contour_element *el,
+                                      const struct contour_point *p)
 {
-    return value[0] * column[el->node[0]] + value[1] * column[el->node[1]] +
-           value[2] * column[el->node[2]];
+    struct warping_basis b;
+    const bool flexible = w->n_value > w->n_node;
+    b.n = flexible ? (int)WARPING_LOCAL : 3;
+    memset(b.g, 0, (size_t)b.n * sizeof *b.g);
+    memset(b.g_slope, 0, (size_t)b.n * sizeof *b.g_slope);
+    memset(b.turn, 0, (size_t)b.n * sizeof *b.turn);
+    memset(b.turn_slope, 0, (size_t)b.n * sizeof *b.turn_slope);
+    for (int a = 0; a < 3; a++) {
+        b.value[a] = el->node[a];
+        b.g[a] = p->shape[a];
+        b.g_slope[a] = p->slope[a];
+    }
+    if (!flexible) {
+        return b;
+    }
+    for (int a = 0; a < 3; a++) {
+        b.value[3 + a] = w->n_node + el->node[a];
+        b.turn[3 + a] = p->shape[a];
+        b.turn_slope[3 + a] = p->slope[a];
+    }
+    b.value[6] = 2 * w->n_node;
+    b.turn[6] = -p->dy;
+    b.value[7] = 2 * w->n_node + 1;
+    b.turn[7] = p->dx;
+    b.n = WARPING_LOCAL;
+    return b;
+}
+
+static struct warping_field field_of(const struct warping *w, const struct warping_basis *b, int k)
+{
+    const double *value = w->g + num_at(0, k, w->n_value);
+    struct warping_field f = {0};
+    for (int a = 0; a < b->n; a++) {
+        const double z = value[b->value[a]];
+        f.g += b->g[a] * z;
+        f.g_slope += b->g_slope[a] * z;
+        f.turn += b->turn[a] * z;
+        f.turn_slope += b->turn_slope[a] * z;
+    }
+    return f;
+}
+
+struct warping_field warping_field_at(const struct warping *w, const struct contour_element *el,
+                                      const struct contour_point *p, int k)
+{
+    const struct warping_basis b = warping_basis_at(w, el, p);
+    return field_of(w, &b, k);
 }
 
 double warping_at(const struct warping *w, const struct contour_element *el,
                   const struct contour_point *p, int k)
 {
-    return at_nodes(el, p->shape, w->g + num_at(0, k, w->n_value));
+    return warping_field_at(w, el, p, k).g;
 }
 
-/* Turns of the normals per unit of strain k, NULL with rigid walls. */
-static const double *turn_of(const struct warping *w, int k)
+/* The normal turns with the wall: r_t theta' less the shear gamma_nz of Eq. (A.7). */
+static double across_of(const struct warping *w, const struct contour_point *p, double turn)
 {
-    return w->n_value > w->n_node ? w->g + num_at(w->n_node, k, w->n_value) : NULL;
+    return p->r_t - w->twist_shear[0] * p->dy + w->twist_shear[1] * p->dx + turn;
 }
 
 double warping_across(const struct warping *w, const struct contour_element *el,
                       const struct contour_point *p)
 {
-    /* The normal turns with the wall: r_t theta' less the shear gamma_nz of Eq. (A.7). */
-    const double *turn = turn_of(w, WARPING_VLASOV);
-    return p->r_t - w->twist_shear[0] * p->dy + w->twist_shear[1] * p->dx +
-           (turn != NULL ? at_nodes(el, p->shape, turn) : 0.0);
+    return across_of(w, p, warping_field_at(w, el, p, WARPING_VLASOV).turn);
 }
 
 double warping_bare_normal_shear(const struct contour_point *p, int k)
@@ -48,8 +91,8 @@ double warping_bare_normal_shear(const struct contour_point *p, int k)
 double warping_normal_shear(const struct warping *w, const struct contour_element *el,
                             const struct contour_point *p, int k)
 {
-    const double *turn = turn_of(w, k);
-    return turn != NULL ? warping_bare_normal_shear(p, k) + at_nodes(el, p->shape, turn) : 0.0;
+    const bool flexible = w->n_value > w->n_node;
+    return flexible ? warping_bare_normal_shear(p, k) + warping_field_at(w, el, p, k).turn : 0.0;
 }
 
 double warping_flow(const double *reduced, int row, const double e[WALL_STRAINS])
@@ -99,13 +142,58 @@ void warping_bare_strain(const struct contour_point *p, int k, double stretched,
 void warping_strains(const struct warping *w, const struct contour_element *el,
                      const struct contour_point *p, double *e)
 {
-    const double stretched = warping_at(w, el, p, WARPING_VLASOV),
-                 across = warping_across(w, el, p);
+    const struct warping_basis b = warping_basis_at(w, el, p);
+    const struct warping_field vlasov = field_of(w, &b, WARPING_VLASOV);
     for (int k = 0; k < N; k++) {
-        const double *turn = turn_of(w, k);
-        warping_bare_strain(p, k, stretched, across, e + WALL_STRAINS * (ptrdiff_t)k);
-        e[W_GAMMA + WALL_STRAINS * k] += at_nodes(el, p->slope, w->g + num_at(0, k, w->n_value));
-        e[W_TWIST + WALL_STRAINS * k] += turn != NULL ? at_nodes(el, p->slope, turn) : 0.0;
+        const struct warping_field f = field_of(w, &b, k);
+        warping_bare_strain(p, k, vlasov.g, across_of(w, p, vlasov.turn),
+                            e + WALL_STRAINS * (ptrdiff_t)k);
+        e[W_GAMMA + WALL_STRAINS * k] += f.g_slope;
+        e[W_TWIST + WALL_STRAINS * k] += f.turn_slope;
+    }
+}
+
+void warping_wide_strains(const struct warping *w, const struct contour_element *el,
+                          const struct contour_point *p, double *e, double *normal)
+{
+    const struct warping_field f = warping_field_at(w, el, p, WARPING_VLASOV);
+    double *eta = e + WALL_STRAINS * (ptrdiff_t)S_ETA;
+    double *surplus = e + WALL_STRAINS * (ptrdiff_t)S_SURPLUS;
+    double *rate = e + WALL_STRAINS * (ptrdiff_t)S_SURPLUS_RATE;
+    warping_strains(w, el, p, e);
+    for (int k = 0; k < N; k++) {
+        normal[k] = warping_normal_shear(w, el, p, k);
+    }
+    memset(eta, 0, 3 * WALL_STRAINS * sizeof *eta);
+    /* The wall turns as a whole: gamma_sz = r_n + n, gamma_nz = -r_t. */
+    eta[W_GAMMA] = p->r_n;
+    eta[W_TWIST] = 1.0;
+    normal[S_ETA] = -p->r_t;
+    surplus[W_GAMMA] = f.g_slope;
+    surplus[W_TWIST] = f.turn_slope;
+    normal[S_SURPLUS] = f.turn;
+    rate[W_EPS] = f.g;
+    rate[W_KAPPA] = f.turn;
+    normal[S_SURPLUS_RATE] = 0.0;
+    for (int k = S_W; k <= S_PHI; k++) {
+        for (int r = 0; r < WALL_STRAINS; r++) {
+            e[r + WALL_STRAINS * k] -= w->follow[k] * surplus[r];
+        }
+        normal[k] -= w->follow[k] * normal[S_SURPLUS];
+    }
+}
+
+/* Wall strains and gamma_nz of the first n_strain strains. */
+static void unit_strains(const struct warping *w, const struct contour_element *el,
+                         const struct contour_point *p, int n_strain, double *e, double *normal)
+{
+    if (n_strain > N) {
+        warping_wide_strains(w, el, p, e, normal);
+        return;
+    }
+    warping_strains(w, el, p, e);
+    for (int k = 0; k < N; k++) {
+        normal[k] = warping_normal_shear(w, el, p, k);
     }
 }
 
@@ -114,7 +202,7 @@ void warping_stiffness(const struct contour *c, const struct laminate *laminate,
 {
     for (int a = 0; a < n_strain; a++) {
         for (int b = 0; b < n_strain; b++) {
-            out[num_at(a, b, n_strain)] = w->wall_shear[num_at(a, b, N)];
+            out[num_at(a, b, n_strain)] = a < N && b < N ? w->wall_shear[num_at(a, b, N)] : 0.0;
         }
     }
     for (int i = 0; i < c->n_element * CONTOUR_GAUSS; i++) {
@@ -122,10 +210,9 @@ void warping_stiffness(const struct contour *c, const struct laminate *laminate,
         const struct laminate *l = &laminate[el->laminate];
         const struct contour_point p = contour_at(el, contour_gauss_point[i % CONTOUR_GAUSS]);
         const double weight = contour_gauss_weight[i % CONTOUR_GAUSS] * p.jacobian;
-        double e[WALL_STRAINS * N], stress[WALL_STRAINS * N], normal[N];
-        warping_strains(w, el, &p, e);
+        double e[WALL_STRAINS * WIDE], stress[WALL_STRAINS * WIDE], normal[WIDE];
+        unit_strains(w, el, &p, n_strain, e, normal);
         for (int k = 0; k < n_strain; k++) {
-            normal[k] = warping_normal_shear(w, el, &p, k);
             for (int r = 0; r < WALL_STRAINS; r++) {
                 stress[num_at(r, k, WALL_STRAINS)] =
                     warping_flow(l->reduced, r, e + num_at(0, k, WALL_STRAINS));

@@ -16,19 +16,30 @@ enum section_strain { S_W, S_PSI, S_PHI, S_THETA, S_THETA2, S_GXZ, S_GYZ, SECTIO
 enum { SECTION_CLASSIC = S_THETA2 + 1 };
 enum wall_strain { W_EPS, W_GAMMA, W_KAPPA, W_TWIST }; /* order of laminate.reduced */
 
+/* Strains of a beam with flexible walls and retained shears beyond those of its section. The
+ * warping has amplitudes of its own along the span, which a clamp holds: chi, which stands in the
+ * place of theta' in the section strains, and chi + sigma. The section twists by theta' = chi +
+ * eta, and where its walls' normals turn freely sigma is what bending asks for, warping.follow. */
+enum { S_ETA = SECTION_STRAIN_COUNT, S_SURPLUS, S_SURPLUS_RATE, SECTION_WIDE_COUNT };
+
 /* Column of the warping that theta'' stretches. */
 enum { WARPING_VLASOV = SECTION_STRAIN_COUNT, WARPING_COLUMNS };
 
 struct warping {
     int n_node;
-    int n_value; /* n_node, or twice as many with WALL_SHEAR_FLEXIBLE */
-    /* g at the nodes, then, with flexible walls, the turn beta of their normals, per unit of each
-     * strain; last the warping that theta'' stretches: that of theta' with the shears it brings
-     * along (n_value x WARPING_COLUMNS). A wall point at n moves along z by g + n beta. */
+    int n_value; /* n_node, or 2 n_node + 2 with WALL_SHEAR_FLEXIBLE */
+    /* g at the nodes, then, with flexible walls, the turn beta of their normals and the turns rho
+     * of all normals as one, per unit of each strain; last the warping that theta'' stretches: that
+     * of theta' with the shears it brings along (n_value x WARPING_COLUMNS). A wall point at n
+     * moves along z by g + n (beta - rho_x dy/ds + rho_y dx/ds): at a corner beta is the same in
+     * both walls, and only rho lets the normals turn as the section does. */
     double *g;
     /* gamma_xz, gamma_yz per unit theta' without shear force: the twist is about the shear centre.
      * Zero in the classic set, whose curvatures follow the displacements themselves. */
     double twist_shear[2];
+    /* Flexible walls, retained set: part of the warping of w', psi', phi' that has the form of the
+     * warping theta'' stretches, as its amplitude per unit of each [1/m per strain]. */
+    double follow[3];
     /* Energy of the transverse shear gamma_nz of the walls per unit of each pair of strains, as far
      * as it is not in warping_normal_shear; zero in the classic set. */
     double wall_shear[SECTION_STRAIN_COUNT * SECTION_STRAIN_COUNT];
@@ -40,7 +51,26 @@ MUST_CHECK enum status warping_solve(const struct contour *c, const struct lamin
                                      struct warping *classic, struct warping *retained);
 void warping_done(struct warping *w);
 
-/* Warping of unit strain k (or WARPING_VLASOV) at a point of an element. */
+/* What the values of a warping do at a point of an element: the values that count there, and g and
+ * the turn of the normal, with their slopes along s, per unit of each. */
+enum { WARPING_LOCAL = 8 };
+struct warping_basis {
+    int n; /* 3 with rigid walls, else WARPING_LOCAL */
+    int value[WARPING_LOCAL];
+    double g[WARPING_LOCAL], g_slope[WARPING_LOCAL], turn[WARPING_LOCAL], turn_slope[WARPING_LOCAL];
+};
+struct warping_basis warping_basis_at(const struct warping *w, const struct contour_element *el,
+                                      const struct contour_point *p);
+
+/* Warping of unit strain k (or WARPING_VLASOV) at a point of an element, with its slopes along s;
+ * the turn is zero with rigid walls. */
+struct warping_field {
+    double g, g_slope, turn, turn_slope;
+};
+struct warping_field warping_field_at(const struct warping *w, const struct contour_element *el,
+                                      const struct contour_point *p, int k);
+
+/* Its g alone. */
 double warping_at(const struct warping *w, const struct contour_element *el,
                   const struct contour_point *p, int k);
 
@@ -58,6 +88,12 @@ double warping_normal_shear(const struct warping *w, const struct contour_elemen
 void warping_strains(const struct warping *w, const struct contour_element *el,
                      const struct contour_point *p, double *e);
 
+/* The same per unit of every strain of a beam with flexible walls (WALL_STRAINS x
+ * SECTION_WIDE_COUNT), with gamma_nz (SECTION_WIDE_COUNT). The columns of w', psi', phi' are
+ * without their part of the warping that sigma carries. */
+void warping_wide_strains(const struct warping *w, const struct contour_element *el,
+                          const struct contour_point *p, double *e, double *normal);
+
 /* What the minimisation itself starts from: the wall strains of unit strain k without the warping's
  * own slope, and gamma_nz of the section's shears alone, Eq. (A.7).
  * DEVIATION (A.6): gamma_sz contains theta', the print has phi'. `stretched` is the warping that
@@ -70,7 +106,7 @@ double warping_bare_normal_shear(const struct contour_point *p, int k);
 double warping_flow(const double *reduced, int row, const double e[WALL_STRAINS]);
 
 /* Stiffness of the section for the first n_strain strains (n_strain x n_strain), column-major:
- * (A.33) with the warping at its minimum. */
+ * (A.33) with the warping at its minimum; for SECTION_WIDE_COUNT that of warping_wide_strains. */
 void warping_stiffness(const struct contour *c, const struct laminate *laminate,
                        const struct warping *w, int n_strain, double *out);
 

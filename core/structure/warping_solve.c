@@ -11,11 +11,11 @@
 enum { N = SECTION_STRAIN_COUNT, CONSTRAINTS = 3 };
 
 /* The system K z = f with g of node 0 held: K is singular for g = const and regular otherwise. The
- * values z are g at the nodes, then, with flexible walls, the turns beta of the normals. */
+ * values z are those of struct warping. */
 struct system {
     int n; /* values less one */
     int n_node;
-    bool turns;         /* is beta among the values? */
+    bool turns;         /* are beta and rho among the values? */
     double *factor;     /* Cholesky factor of K (n x n) */
     double *constraint; /* axial flows of w', psi', phi' on the values ((n + 1) x CONSTRAINTS) */
     double *response;   /* K^-1 of them, node 0 zero                 ((n + 1) x CONSTRAINTS) */
@@ -29,61 +29,59 @@ static void add_entry(struct system *s, int a, int b, double value)
     }
 }
 
-/* Energy of the free warping, int R (g', beta')^2 + K_zn beta^2 ds, factored with g of node 0 held.
- */
-static enum status factor(const struct contour *c, const struct laminate *lam, struct system *s)
+/* Energy of the free warping, int R (g', turn') + K_zn turn^2 ds, factored with g of node 0 held.
+ * The same turn may be made of beta and of rho (straight walls): a little energy of rho alone
+ * decides. */
+static enum status factor(const struct contour *c, const struct laminate *lam,
+                          const struct warping *w, struct system *s)
 {
-    for (int i = 0; i < c->n_element; i++) {
-        const struct contour_element *el = &c->element[i];
+    for (int i = 0; i < c->n_element * CONTOUR_GAUSS; i++) {
+        const struct contour_element *el = &c->element[i / CONTOUR_GAUSS];
         const double *r = lam[el->laminate].reduced;
         const double gg = r[W_GAMMA + WALL_STRAINS * W_GAMMA];
         const double gt = r[W_GAMMA + WALL_STRAINS * W_TWIST];
         const double tt = r[W_TWIST + WALL_STRAINS * W_TWIST];
-        for (int q = 0; q < CONTOUR_GAUSS; q++) {
-            const struct contour_point p = contour_at(el, contour_gauss_point[q]);
-            const double weight = contour_gauss_weight[q] * p.jacobian;
-            for (int k = 0; k < 9; k++) {
-                const int a = k % 3, b = k / 3, na = el->node[a], nb = el->node[b];
-                const double slopes = weight * p.slope[a] * p.slope[b];
-                add_entry(s, na, nb, gg * slopes);
-                if (s->turns) {
-                    add_entry(s, na, s->n_node + nb, gt * slopes);
-                    add_entry(s, s->n_node + na, nb, gt * slopes);
-                    add_entry(s, s->n_node + na, s->n_node + nb,
-                              tt * slopes +
-                                  weight * lam[el->laminate].shear_zn * p.shape[a] * p.shape[b]);
-                }
-            }
+        const double shear_zn = lam[el->laminate].shear_zn;
+        const struct contour_point p = contour_at(el, contour_gauss_point[i % CONTOUR_GAUSS]);
+        const double weight = contour_gauss_weight[i % CONTOUR_GAUSS] * p.jacobian;
+        const struct warping_basis f = warping_basis_at(w, el, &p);
+        for (int k = 0; k < f.n * f.n; k++) {
+            const int a = k % f.n, b = k / f.n;
+            const double sum = f.g_slope[a] * (gg * f.g_slope[b] + gt * f.turn_slope[b]) +
+                               f.turn_slope[a] * (gt * f.g_slope[b] + tt * f.turn_slope[b]) +
+                               shear_zn * f.turn[a] * f.turn[b];
+            add_entry(s, f.value[a], f.value[b], weight * sum);
         }
+    }
+    for (int a = 2 * s->n_node; s->turns && a < 2 * s->n_node + 2; a++) {
+        add_entry(s, a, a, 1e-8 * s->factor[num_at(s->n_node, s->n_node, s->n)]);
     }
     return la_cholesky(s->n, s->factor);
 }
 
-/* Load of strain k on the warping w: -int N' (R_gamma . e_k) ds on g, and on the turns
- * -int N' (R_twist . e_k) + N K_zn gamma_nz ds. */
+/* Load of strain k on the values of w: -int g' (R_gamma . e_k) + turn' (R_twist . e_k) +
+ * turn K_zn gamma_nz ds. */
 static void add_load(const struct contour *c, const struct laminate *lam, const struct warping *w,
                      int k, double *rhs)
 {
-    const bool turns = w->n_value > w->n_node;
-    for (int i = 0; i < c->n_element; i++) {
-        const struct contour_element *el = &c->element[i];
+    for (int i = 0; i < c->n_element * CONTOUR_GAUSS; i++) {
+        const struct contour_element *el = &c->element[i / CONTOUR_GAUSS];
         const struct laminate *l = &lam[el->laminate];
-        for (int q = 0; q < CONTOUR_GAUSS; q++) {
-            const struct contour_point p = contour_at(el, contour_gauss_point[q]);
-            const double weight = contour_gauss_weight[q] * p.jacobian;
-            double e[WALL_STRAINS];
-            warping_bare_strain(&p, k, warping_at(w, el, &p, WARPING_VLASOV),
-                                warping_across(w, el, &p), e);
-            const double flow = warping_flow(l->reduced, W_GAMMA, e);
-            const double twist = warping_flow(l->reduced, W_TWIST, e);
-            const double normal = l->shear_zn * warping_bare_normal_shear(&p, k);
-            for (int a = 0; a < 3; a++) {
-                rhs[el->node[a]] -= weight * p.slope[a] * flow;
-                if (turns) {
-                    rhs[w->n_node + el->node[a]] -=
-                        weight * (p.slope[a] * twist + p.shape[a] * normal);
-                }
-            }
+        const struct contour_point p = contour_at(el, contour_gauss_point[i % CONTOUR_GAUSS]);
+        const double weight = contour_gauss_weight[i % CONTOUR_GAUSS] * p.jacobian;
+        const struct warping_basis f = warping_basis_at(w, el, &p);
+        double e[WALL_STRAINS], stretched = 0.0, across = 0.0;
+        if (k == S_THETA2) {
+            stretched = warping_at(w, el, &p, WARPING_VLASOV);
+            across = warping_across(w, el, &p);
+        }
+        warping_bare_strain(&p, k, stretched, across, e);
+        const double flow = warping_flow(l->reduced, W_GAMMA, e);
+        const double twist = warping_flow(l->reduced, W_TWIST, e);
+        const double normal = l->shear_zn * warping_bare_normal_shear(&p, k);
+        for (int a = 0; a < f.n; a++) {
+            rhs[f.value[a]] -=
+                weight * (f.g_slope[a] * flow + f.turn_slope[a] * twist + f.turn[a] * normal);
         }
     }
 }
@@ -95,26 +93,22 @@ static void solve_held(const struct system *s, double *rhs)
     la_cholesky_solve(s->n, s->factor, 1, rhs + 1);
 }
 
-/* Axial force N_zz of unit strain k on the nodes, and its couple L_zz on their turns (n_value). */
+/* Work of the axial force N_zz and its couple L_zz of unit strain k on the values (n_value). */
 static void axial_flow(const struct contour *c, const struct laminate *lam, const struct warping *w,
                        int k, double *force)
 {
-    for (int i = 0; i < c->n_element; i++) {
-        const struct contour_element *el = &c->element[i];
-        for (int q = 0; q < CONTOUR_GAUSS; q++) {
-            const struct contour_point p = contour_at(el, contour_gauss_point[q]);
-            const double weight = contour_gauss_weight[q] * p.jacobian;
-            const double *r = lam[el->laminate].reduced;
-            double e[WALL_STRAINS * N];
-            warping_strains(w, el, &p, e);
-            const double *unit = e + WALL_STRAINS * (ptrdiff_t)k;
-            for (int a = 0; a < 3; a++) {
-                force[el->node[a]] += weight * p.shape[a] * warping_flow(r, W_EPS, unit);
-                if (w->n_value > w->n_node) {
-                    force[w->n_node + el->node[a]] +=
-                        weight * p.shape[a] * warping_flow(r, W_KAPPA, unit);
-                }
-            }
+    for (int i = 0; i < c->n_element * CONTOUR_GAUSS; i++) {
+        const struct contour_element *el = &c->element[i / CONTOUR_GAUSS];
+        const struct contour_point p = contour_at(el, contour_gauss_point[i % CONTOUR_GAUSS]);
+        const double weight = contour_gauss_weight[i % CONTOUR_GAUSS] * p.jacobian;
+        const double *r = lam[el->laminate].reduced;
+        const struct warping_basis f = warping_basis_at(w, el, &p);
+        double e[WALL_STRAINS * N];
+        warping_strains(w, el, &p, e);
+        const double *unit = e + WALL_STRAINS * (ptrdiff_t)k;
+        const double axial = warping_flow(r, W_EPS, unit), couple = warping_flow(r, W_KAPPA, unit);
+        for (int a = 0; a < f.n; a++) {
+            force[f.value[a]] += weight * (f.g[a] * axial + f.turn[a] * couple);
         }
     }
 }
@@ -282,6 +276,37 @@ static void set_wall_shear(const struct couples *couples, const double *lambda, 
     }
 }
 
+/* Energy of the walls between the warpings of columns a and b alone. */
+static double warping_energy(const struct contour *c, const struct laminate *lam,
+                             const struct warping *w, int a, int b)
+{
+    double energy = 0.0;
+    for (int i = 0; i < c->n_element * CONTOUR_GAUSS; i++) {
+        const struct contour_element *el = &c->element[i / CONTOUR_GAUSS];
+        const struct laminate *l = &lam[el->laminate];
+        const struct contour_point p = contour_at(el, contour_gauss_point[i % CONTOUR_GAUSS]);
+        const struct warping_field fa = warping_field_at(w, el, &p, a),
+                                   fb = warping_field_at(w, el, &p, b);
+        const double e[WALL_STRAINS] = {[W_GAMMA] = fb.g_slope, [W_TWIST] = fb.turn_slope};
+        energy += contour_gauss_weight[i % CONTOUR_GAUSS] * p.jacobian *
+                  (fa.g_slope * warping_flow(l->reduced, W_GAMMA, e) +
+                   fa.turn_slope * warping_flow(l->reduced, W_TWIST, e) +
+                   l->shear_zn * fa.turn * fb.turn);
+    }
+    return energy;
+}
+
+/* The part of the warping of w', psi', phi' that has the form of what theta'' stretches, by
+ * projection in the energy of the warping; none where a twist of stiffness gj does not warp. */
+static void find_follow(const struct contour *c, const struct laminate *lam, double gj,
+                        struct warping *w)
+{
+    const double own = warping_energy(c, lam, w, WARPING_VLASOV, WARPING_VLASOV);
+    for (int k = S_W; k <= S_PHI && own > 1e-9 * gj; k++) {
+        w->follow[k] = warping_energy(c, lam, w, WARPING_VLASOV, k) / own;
+    }
+}
+
 /* Twist without shear force brings shear strains along, as it is about the shear centre, and their
  * warping with it. Both are held where the warping is held, so theta'' stretches the sum: the
  * warping of theta' alone would be that of a twist about the origin. */
@@ -307,6 +332,9 @@ static enum status find_vlasov(const struct contour *c, const struct laminate *l
         w->g[num_at(q, WARPING_VLASOV, n)] = w->g[num_at(q, S_THETA, n)] +
                                              b[0] * w->g[num_at(q, S_GXZ, n)] +
                                              b[1] * w->g[num_at(q, S_GYZ, n)];
+    }
+    if (c->shear == WALL_SHEAR_FLEXIBLE) {
+        find_follow(c, lam, k[num_at(S_THETA, S_THETA, N)], w);
     }
     return ST_OK;
 }
@@ -349,7 +377,7 @@ static enum status solve_retained(const struct contour *c, const struct laminate
 static enum status system_init(const struct contour *c, struct system *out)
 {
     const bool turns = c->shear == WALL_SHEAR_FLEXIBLE;
-    const size_t values = (size_t)c->n_node * (turns ? 2 : 1), n = values - 1;
+    const size_t nodes = (size_t)c->n_node, values = turns ? 2 * nodes + 2 : nodes, n = values - 1;
     struct system s = {.n = (int)n, .n_node = c->n_node, .turns = turns};
     s.factor = calloc(n * n + values * (size_t)(2 * CONSTRAINTS), sizeof *s.factor);
     if (s.factor == NULL) {
@@ -386,7 +414,7 @@ enum status warping_solve(const struct contour *c, const struct laminate *lamina
         st = warping_init(&s, &b);
     }
     if (st == ST_OK) {
-        st = factor(c, laminate, &s);
+        st = factor(c, laminate, &a, &s);
     }
     if (st == ST_OK) {
         struct couples couples;

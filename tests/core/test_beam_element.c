@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-enum { NODE = BEAM_NODE_FREEDOMS, OUTER = BEAM_OUTER, N = SECTION_STRAIN_COUNT };
+enum { NODE = BEAM_NODE_MOST, OUTER = BEAM_OUTER, N = SECTION_WIDE_COUNT };
 
 static const double h = 0.3;
 
@@ -20,8 +20,11 @@ static void strains_are_derivatives_of_motions(void **state)
     static const struct {
         int strain, motion;
         double sign;
-    } pair[] = {
-        {S_W, M_W, 1.0}, {S_PSI, M_DU, 1.0}, {S_PHI, M_DV, -1.0}, {S_THETA2, M_DTHETA, 1.0}};
+    } pair[] = {{S_W, M_W, 1.0},
+                {S_PSI, M_DU, 1.0},
+                {S_PHI, M_DV, -1.0},
+                {S_THETA2, M_DTHETA, 1.0},
+                {S_SURPLUS_RATE, M_SURPLUS, 1.0}};
     const double step = 1e-5;
     for (double t = 0.1; t < 1.0; t += 0.2) {
         struct element_rows at, before, after;
@@ -30,7 +33,7 @@ static void strains_are_derivatives_of_motions(void **state)
         element_rows(t + step, h, &after);
         for (size_t p = 0; p < sizeof pair / sizeof pair[0]; p++) {
             for (int i = 0; i < ELEMENT_ALL; i++) {
-                const ptrdiff_t k = pair[p].motion + SECTION_MOTION_COUNT * (ptrdiff_t)i;
+                const ptrdiff_t k = pair[p].motion + SECTION_WIDE_MOTION * (ptrdiff_t)i;
                 const double slope =
                     pair[p].sign * (after.motion[k] - before.motion[k]) / (2.0 * step * h);
                 assert_near_abs(at.strain[pair[p].strain + N * i], slope,
@@ -52,14 +55,14 @@ static void slope_is_rotation_and_shear(void **state)
         element_rows(t - step, h, &before);
         element_rows(t + step, h, &after);
         for (int i = 0; i < ELEMENT_ALL; i++) {
-            const ptrdiff_t c = SECTION_MOTION_COUNT * (ptrdiff_t)i, s = N * (ptrdiff_t)i;
+            const ptrdiff_t c = SECTION_WIDE_MOTION * (ptrdiff_t)i, s = N * (ptrdiff_t)i;
             const double du = (after.motion[M_U + c] - before.motion[M_U + c]) / (2.0 * step * h);
             const double dv = (after.motion[M_V + c] - before.motion[M_V + c]) / (2.0 * step * h);
             assert_near_abs(at.motion[M_DU + c] + at.strain[S_GXZ + s], du, 1e-7);
             const double twist =
                 (after.motion[M_THETA + c] - before.motion[M_THETA + c]) / (2.0 * step * h);
             assert_near_abs(at.motion[M_DV + c] + at.strain[S_GYZ + s], dv, 1e-7);
-            assert_near_abs(at.strain[S_THETA + s] + at.eta[i], twist, 1e-7);
+            assert_near_abs(at.strain[S_THETA + s] + at.strain[S_ETA + s], twist, 1e-7);
             assert_near_abs(at.strain[S_THETA + s], at.motion[M_DTHETA + c], 1e-12);
         }
     }
@@ -69,13 +72,13 @@ static void slope_is_rotation_and_shear(void **state)
 static void ends_are_the_nodes(void **state)
 {
     (void)state;
-    static const int motion_of[NODE] = {M_W, M_U, M_DU, M_V, M_DV, M_THETA, M_DTHETA};
+    static const int motion_of[NODE] = {M_W, M_U, M_DU, M_V, M_DV, M_THETA, M_DTHETA, M_SURPLUS};
     for (int end = 0; end < 2; end++) {
         struct element_rows at;
         element_rows(end, h, &at);
         for (int f = 0; f < NODE; f++) {
             for (int i = 0; i < ELEMENT_ALL; i++) {
-                const double value = at.motion[motion_of[f] + SECTION_MOTION_COUNT * i];
+                const double value = at.motion[motion_of[f] + SECTION_WIDE_MOTION * i];
                 assert_near_abs(value, i == NODE * end + f ? 1.0 : 0.0, 1e-14);
             }
         }

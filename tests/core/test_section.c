@@ -2,6 +2,7 @@
 #include "core/coupling/model.h"
 #include "core/la.h"
 #include "core/num.h"
+#include "tests/support/draw.h"
 #include "tests/support/fixture.h"
 #include "tests/support/unit.h"
 
@@ -107,6 +108,116 @@ static void shear_of_an_open_wall_is_free(void **state)
     model_done(&m);
 }
 
+/* Torsion stiffness with all forces but the torque zero, from the retained matrix. */
+static double retained_gj(const struct section *s)
+{
+    static const int free_strain[] = {S_W, S_PSI, S_PHI, S_GXZ, S_GYZ};
+    enum { FREE = sizeof free_strain / sizeof free_strain[0] };
+    double a[FREE * FREE], b[FREE], gj = s->stiffness[num_at(S_THETA, S_THETA, N)];
+    for (int i = 0; i < FREE; i++) {
+        for (int j = 0; j < FREE; j++) {
+            a[num_at(i, j, FREE)] = s->stiffness[num_at(free_strain[i], free_strain[j], N)];
+        }
+        b[i] = s->stiffness[num_at(free_strain[i], S_THETA, N)];
+    }
+    assert_ok(la_solve_symmetric(FREE, a, 1, b));
+    for (int i = 0; i < FREE; i++) {
+        gj -= b[i] * s->stiffness[num_at(free_strain[i], S_THETA, N)];
+    }
+    return gj;
+}
+
+static void add_walls(struct shape *s, int n, const double (*point)[2])
+{
+    const struct material m = fixture_isotropic(70e9, 0.33, 2700.0);
+    const struct ply ply = draw_ply(&m, 0.0015);
+    draw_contour(s, 64); /* the turn decays within a third of the thickness */
+    const int layup = draw_layup(s, 1, &ply);
+    for (int i = 0, last = -1; i < n; i++) {
+        const int next = draw_point(s, point[i][0], point[i][1]);
+        if (i > 0) {
+            (void)draw_wall(s, last, next, layup);
+        }
+        last = next;
+    }
+}
+
+static double length_of(int n, const double (*point)[2])
+{
+    double sum = 0.0;
+    for (int i = 1; i < n; i++) {
+        sum += hypot(point[i][0] - point[i - 1][0], point[i][1] - point[i - 1][1]);
+    }
+    return sum;
+}
+
+/* The retained set has the torsion of the classic one where no shear force acts, whatever the walls
+ * may do: at a corner their normals turn with the section, each wall by its own part. */
+static void both_sets_have_one_torsion(void **state)
+{
+    (void)state;
+    static const double channel[4][2] = {{0.025, 0.02}, {0.0, 0.02}, {0.0, -0.02}, {0.025, -0.02}};
+    static const double angle[3][2] = {{0.03, 0.0}, {0.0, 0.0}, {0.0, -0.02}};
+    static const double strip[2][2] = {{0.02, 0.01}, {-0.02, -0.01}};
+    static const struct {
+        int n;
+        const double (*point)[2];
+    } open_section[] = {{4, channel}, {3, angle}, {2, strip}};
+    for (size_t i = 0; i < sizeof open_section / sizeof open_section[0]; i++) {
+        double gj[2];
+        for (int walls = WALL_SHEAR_RIGID; walls <= WALL_SHEAR_FLEXIBLE; walls++) {
+            struct case_def def;
+            struct failure fail;
+            struct model m;
+            case_def_defaults(&def);
+            def.kind = CASE_SECTION;
+            add_walls(&def.beam.section.shape, open_section[i].n, open_section[i].point);
+            def.beam.section.shape.wall_shear = (enum wall_shear)walls;
+            assert_ok(model_build(&def, &m, &fail));
+            gj[walls] = m.centres.gj;
+            assert_near_rel(retained_gj(&m.section), gj[walls], 1e-3);
+            model_done(&m);
+        }
+        /* 0.63 h/b for the two free edges of the developed length b, less than that for each wall.
+         */
+        const double edges = 0.63 * 0.0015 / length_of(open_section[i].n, open_section[i].point);
+        const double loss = 1.0 - gj[WALL_SHEAR_FLEXIBLE] / gj[WALL_SHEAR_RIGID];
+        assert_true(loss > 0.97 * edges);
+        assert_true(loss < 1.01 * edges * (open_section[i].n - 1));
+    }
+}
+
+/* A round tube does not warp, so flexible walls have no surplus to hold: its modes stay. */
+static void modes_of_a_round_tube(void **state)
+{
+    (void)state;
+    const struct material m = fixture_isotropic(70e9, 0.33, 2700.0);
+    const struct ply ply = draw_ply(&m, 0.0005);
+    static struct shape shape;
+    double omega[2][4];
+    draw_contour(&shape, 20);
+    const int layup = draw_layup(&shape, 1, &ply);
+    const int front = draw_point(&shape, 0.03, 0.0), rear = draw_point(&shape, -0.03, 0.0);
+    (void)draw_arc(&shape, front, rear, layup, 0.0, 0.03);
+    (void)draw_arc(&shape, rear, front, layup, 0.0, -0.03);
+    for (int walls = WALL_SHEAR_RIGID; walls <= WALL_SHEAR_FLEXIBLE; walls++) {
+        struct case_def def;
+        struct failure fail;
+        struct model model;
+        draw_case(&shape, 0.8, &def);
+        def.kind = CASE_MODES;
+        def.solver.modes = 4;
+        def.beam.section.shear = SHEAR_RETAINED;
+        def.beam.section.shape.wall_shear = (enum wall_shear)walls;
+        assert_ok(model_build(&def, &model, &fail));
+        memcpy(omega[walls], model.modes.omega, sizeof omega[walls]);
+        model_done(&model);
+    }
+    for (int j = 0; j < 4; j++) {
+        assert_near_rel(omega[WALL_SHEAR_FLEXIBLE][j], omega[WALL_SHEAR_RIGID][j], 1e-3);
+    }
+}
+
 static int setup(void **state)
 {
     (void)state;
@@ -121,6 +232,8 @@ int main(void)
         cmocka_unit_test(mirrored_plies_mirror_the_section),
         cmocka_unit_test(a_rigid_chord_is_stiffer),
         cmocka_unit_test(shear_of_an_open_wall_is_free),
+        cmocka_unit_test(both_sets_have_one_torsion),
+        cmocka_unit_test(modes_of_a_round_tube),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

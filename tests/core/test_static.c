@@ -84,7 +84,7 @@ static void pulled_plies_share_the_strain(void **state)
     (void)state;
     const struct material m = strong();
     struct ply ply[3] = {draw_ply(&m, 1e-3), draw_ply(&m, 2e-3), draw_ply(&m, 1e-3)};
-    const double strain[SECTION_STRAIN_COUNT] = {[S_W] = 1e-3};
+    const double strain[SECTION_WIDE_COUNT] = {[S_W] = 1e-3};
     int n = 0;
     ply[1].angle = 0.5 * NUM_PI;
     draw_contour(&shape, 8);
@@ -111,7 +111,7 @@ static void the_worst_point_of_a_bent_strip_is_its_face(void **state)
 {
     (void)state;
     struct material m = fixture_isotropic(70e9, 0.3, 2700.0);
-    const double strain[SECTION_STRAIN_COUNT] = {[S_PHI] = 0.5};
+    const double strain[SECTION_WIDE_COUNT] = {[S_PHI] = 0.5};
     int n = 0;
     m.x_tension = m.y_tension = 100e6;
     m.x_compression = m.y_compression = 400e6;

@@ -125,6 +125,43 @@ static void no_load_no_motion(void **state)
     model_done(&m);
 }
 
+/* A torque on a sandwich at a clamp that holds the warping: the section twists there by eta alone,
+ * as a rigid figure, T = (D_tt b + K_zn b^3/12) eta, and the outer face shears by eta h/2. */
+static void plies_shear_where_the_warping_is_held(void **state)
+{
+    (void)state;
+    const double b = 0.1, torque = 0.01;
+    struct model m;
+    struct static_result r;
+    struct laminate laminate;
+    make(0.0);
+    def.loads.point[0].load.moment[2] = torque;
+    struct section_def *s = &def.beam.section;
+    struct layup *l = &s->shape.layup[0];
+    l->ply[0].angle = 0.0;
+    l->ply[1].thickness -= l->ply[0].thickness;
+    l->ply[2] = l->ply[0];
+    l->n_ply = 3;
+    s->shear = SHEAR_RETAINED;
+    s->shape.wall_shear = WALL_SHEAR_FLEXIBLE;
+    def.output.n_stress = 1;
+    def.output.stress[0] = 0.0;
+    assert_ok(laminate_build(3, l->ply, s->shape.chordwise, &laminate));
+    run(&m, &r);
+    const double d_tt = laminate.reduced[W_TWIST + WALL_STRAINS * W_TWIST];
+    const double eta = torque / (d_tt * b + laminate.shear_zn * b * b * b / 12.0);
+    assert_near_rel(r.stress[0].strain[S_ETA], eta, 0.01);
+    assert_near_abs(r.stress[0].strain[S_THETA], 0.0, 1e-9);
+    for (int i = 0; i < r.stress[0].n_ply; i++) {
+        if (i != 1) {
+            assert_near_rel(fabs(r.stress[0].ply[i].strain_lt), 0.5 * laminate.thickness * eta,
+                            0.01);
+        }
+    }
+    statics_done(&r);
+    model_done(&m);
+}
+
 static int setup(void **state)
 {
     (void)state;
@@ -140,6 +177,7 @@ int main(void)
         cmocka_unit_test(reserve_is_that_of_the_plies_with_strengths),
         cmocka_unit_test(without_strengths_there_is_no_reserve),
         cmocka_unit_test(no_load_no_motion),
+        cmocka_unit_test(plies_shear_where_the_warping_is_held),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

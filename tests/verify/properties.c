@@ -173,7 +173,7 @@ static double strain_error(const struct beam *b, const double *x, const double *
 {
     double largest = 0.0;
     for (int i = 0; i <= 50; i++) {
-        double strain[N];
+        double strain[SECTION_WIDE_COUNT];
         beam_strain_at(b, x, node_z[NODES - 1] * i / 50.0, strain);
         for (int k = 0; k < N; k++) {
             largest = fmax(largest, fabs(strain[k] - expected[k]));
@@ -208,7 +208,7 @@ static void patches(struct check_list *list)
  * force, constant along the span, and the moments of statics. */
 static void shear_patch(struct check_list *list)
 {
-    double z[NODES], strain[N];
+    double z[NODES], strain[SECTION_WIDE_COUNT];
     memcpy(z, node_z, sizeof z);
     const struct material mat = fixture_isotropic(70e9, 0.3, 2700.0);
     const struct beam_mesh mesh = {.n_element = NODES - 1, .z = z};

@@ -8,6 +8,7 @@
 #include "tests/verify/check.h"
 
 #include <assert.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,13 +43,33 @@ static const struct comparison comparisons[] = {
     {"two-cell-laminated", SHEAR_RETAINED, WALL_SHEAR_RIGID, 7},
     {"channel-aluminium", SHEAR_RETAINED, WALL_SHEAR_RIGID, 5},
     {"i-section-aluminium", SHEAR_RETAINED, WALL_SHEAR_RIGID, 8},
+    {"sandwich-0", SHEAR_RETAINED, WALL_SHEAR_FLEXIBLE, 7},
+    {"sandwich-30", SHEAR_RETAINED, WALL_SHEAR_FLEXIBLE, 7},
 };
 
 /* Tolerances: frequencies of bending and of torsion or coupled modes; static answers. */
 static const double bending_tolerance = 0.025, torsion_tolerance = 0.02, static_tolerance = 0.05,
                     torque_tolerance = 0.04;
 
+static const double thick_tolerance = 0.05;
+
 static const char *const bricks = "[3D] bricks";
+
+/* Coupled plies on a thick soft core: the clamp holds the curvature across the chord over a good
+ * part of the span. */
+static bool is_thick(const struct comparison *r)
+{
+    return strcmp(r->name, "sandwich-30") == 0;
+}
+
+/* Bending of a thick sandwich is a mode with less than half of its energy in torsion. */
+static double mode_tolerance(const struct comparison *r, const struct reference_mode *mode)
+{
+    if (is_thick(r) && mode->torsion < 0.5) {
+        return thick_tolerance;
+    }
+    return mode->torsion < 0.05 ? bending_tolerance : torsion_tolerance;
+}
 
 /* The case of a record; `station` is its memory for a taper. */
 static void make_case(const struct reference *ref, int i, const struct comparison *r,
@@ -76,8 +97,8 @@ static void compare_modes(struct check_list *list, const struct reference *ref, 
     assert(r->modes <= n);
     for (int j = 0; j < r->modes; j++) {
         check_add(list, CHECK_RELATIVE, "Hz", built_hz(&m, j), mode[j].frequency,
-                  mode[j].torsion < 0.05 ? bending_tolerance : torsion_tolerance, bricks,
-                  "%s: mode %d, %s", r->name, j + 1, mode[j].label);
+                  mode_tolerance(r, &mode[j]), bricks, "%s: mode %d, %s", r->name, j + 1,
+                  mode[j].label);
     }
     model_done(&m);
 }
@@ -91,7 +112,9 @@ static struct beam_motion tip_under(const struct reference *ref, int i, const st
     struct model m;
     struct static_result answer;
     struct comparison how = *r;
-    how.walls = strcmp(load, "tip_torque") == 0 ? r->walls : WALL_SHEAR_RIGID;
+    if (r->shear == SHEAR_CONDENSED && strcmp(load, "tip_torque") != 0) {
+        how.walls = WALL_SHEAR_RIGID;
+    }
     make_case(ref, i, &how, station, &def);
     def.kind = CASE_STATIC;
     const struct beam_load up = {.force = {0.0, 1.0, 0.0}};
@@ -158,59 +181,27 @@ static void compare_answers(struct check_list *list, const struct reference *ref
         const struct load_row *row = &load_rows[k];
         const bool torque = strcmp(row->load, "tip_torque") == 0;
         const bool strip_lag = row->answer == CHORDWISE && strncmp(r->name, "paper", 5) == 0;
+        const bool held_across = is_thick(r) && row->answer != TWIST;
         const bool weak = row->answer == TWIST && !torque && !coupled(ref, i, row->load);
-        if (!isnan(reference_tip(ref, i, row->load, row->key)) && !strip_lag && !weak) {
+        if (!isnan(reference_tip(ref, i, row->load, row->key)) && !strip_lag && !held_across &&
+            !weak) {
             compare_answer(list, ref, i, r, row);
         }
     }
 }
 
-/* Plunge and chordwise deflection only. */
-static void compare_bending(struct check_list *list, const struct reference *ref, int i,
-                            const struct comparison *r)
+/* What is right with rigid walls and retained shear is so with flexible ones. */
+static void compare_flexible(struct check_list *list, const struct reference *ref, int i,
+                             const struct comparison *r)
 {
-    for (size_t k = 0; k < sizeof load_rows / sizeof load_rows[0]; k++) {
-        if (load_rows[k].answer != TWIST) {
-            compare_answer(list, ref, i, r, &load_rows[k]);
-        }
-    }
-}
-
-/* Thick soft cores: bending and lag within 5 %. */
-static void sandwiches(struct check_list *list, const struct reference *ref, int i)
-{
-    static const struct {
-        int share, number, mode;
-    } family[] = {{0, 0, 0}, {0, 1, 2}, {0, 2, 4}, {1, 0, 5}};
-    static const char *const name[2] = {"bending", "lag"};
-    const struct comparison how = {.name = reference_name(ref, i), .shear = SHEAR_RETAINED};
-    static struct station_def station[2];
-    static struct case_def def;
-    struct reference_mode mode[REFERENCE_MODES];
-    struct model m;
-    (void)reference_modes(ref, i, mode);
-    make_case(ref, i, &how, station, &def);
-    built_model(&def, &m);
-    if (strcmp(how.name, "sandwich-0") == 0) {
-        for (size_t k = 0; k < sizeof family / sizeof family[0]; k++) {
-            check_add(list, CHECK_RELATIVE, "Hz",
-                      built_frequency(&m, family[k].share, family[k].number),
-                      mode[family[k].mode].frequency, 0.05, bricks, "sandwich-0: %s %d",
-                      name[family[k].share], family[k].number + 1);
-        }
-        static const struct comparison flexible = {.name = "sandwich-0",
-                                                   .shear = SHEAR_RETAINED,
-                                                   .walls = WALL_SHEAR_FLEXIBLE,
-                                                   .modes = 7};
+    char name[64];
+    struct comparison flexible = *r;
+    if (r->shear == SHEAR_RETAINED && r->walls == WALL_SHEAR_RIGID) {
+        (void)snprintf(name, sizeof name, "%s, flexible walls", r->name);
+        flexible.name = name;
+        flexible.walls = WALL_SHEAR_FLEXIBLE;
         compare_modes(list, ref, i, &flexible);
-        compare_bending(list, ref, i, &how);
-    } else {
-        for (int j = 0; j < 2; j++) {
-            check_add(list, CHECK_RELATIVE, "Hz", built_hz(&m, j), mode[j].frequency, 0.05, bricks,
-                      "%s: mode %d, %s", how.name, j + 1, mode[j].label);
-        }
     }
-    model_done(&m);
 }
 
 static const struct comparison *find_comparison(const char *name)
@@ -232,9 +223,8 @@ static void fill(struct check_list *list)
         if (r != NULL) {
             compare_modes(list, ref, i, r);
             compare_answers(list, ref, i, r);
+            compare_flexible(list, ref, i, r);
             found++;
-        } else if (strncmp(reference_name(ref, i), "sandwich", 8) == 0) {
-            sandwiches(list, ref, i);
         }
     }
     check_add(list, CHECK_ABSOLUTE, "", found, sizeof comparisons / sizeof comparisons[0], 0.0,
@@ -249,26 +239,27 @@ const struct check_group group_reference_3d = {
         "Bricks of tests/reference (CalculiX C3D20R), 48 beam elements, root warping restrained; "
         "strips with condensed, closed and open sections and sandwiches with retained shear. "
         "Tolerances: bending 2.5 %, torsion and coupled modes 2 %, static answers 5 % (4 % under a "
-        "torque); 5 % for the thick sandwiches, where a mode has as much core shear as bending and "
-        "the clamp holds the anticlastic curvature over a good part of the span. The clamp of the "
-        "bricks holds the chordwise curvature of strips: it makes bending 1 to 1.5 % stiffer in "
-        "frequency than any beam with a free chord.\n\n"
+        "torque). The clamp of the bricks holds the chordwise curvature of strips, which no beam "
+        "with a free chord knows: it makes bending 1 to 1.5 % stiffer in frequency, and in the "
+        "thick sandwich at 30 degrees, whose bending twists its faces, 3 to 4 %: there modes with "
+        "less than half of their energy in torsion have 5 %, and plunge under forces (5 and 6.5 % "
+        "too much) is not compared. That this is the reason shows a plate of the same walls that "
+        "may also bend across (Ritz, polynomials of degree 6 over the chord): all its modes are "
+        "within 0.3 % of the bricks.\n\n"
         "The paper's strip has a soft core: its walls are flexible (`wall_shear`), so that the "
         "normals turn at the free edges. With rigid walls, the default and lamination theory, its "
         "torsion is 2.3 % higher in frequency. Two stiff faces on a soft core lose a quarter of "
-        "their torsion stiffness by it, and the clamp holds them less (`warping_shear`): with "
-        "retained shear and flexible walls all seven modes of the sandwich at 0 degrees are "
-        "within 2 %; with rigid walls its torsion is 32 % high. Coupled plies on a soft core, the "
-        "sandwich at 30 degrees, are right in their first two modes with rigid walls and 7 to 9 "
-        "% low with flexible ones, whose normals turn freely under bending at the clamp; its "
-        "higher "
-        "modes are not compared. Forces are compared with rigid walls, the "
-        "default; with flexible ones the coupling twist of the paper's strip is 0.1 % further "
-        "off, at -5.0 %.\n\n"
+        "their torsion stiffness by it (32 % in the frequency of the sandwich at 0 degrees), and "
+        "the clamp holds them less: with retained shear the warping has amplitudes of its own "
+        "along the span, that of the twist and its surplus, which bending of coupled plies asks "
+        "for. Without the surplus the first mode of the sandwich at 30 degrees is 9 % low. Forces "
+        "on condensed strips are compared with rigid walls, the default; with flexible ones the "
+        "coupling twist of the paper's strip is 0.1 % further off, at -5.0 %.\n\n"
         "Not compared: modes in which the section distorts in its plane (from mode 6 on for the "
         "channel and the short CAS box, where torsion at 760 Hz is 2.1 % high; mode 8 of the "
         "laminated two-cell box and of the 30 degree strip); chordwise deflection of the paper's "
-        "strip, of the order of 1e-4 m/N, which shear and the clamp decide (within 8 %); coupling "
+        "strip, of the order of 1e-4 m/N, which shear and the clamp decide (within 8 %), and of "
+        "the sandwich at 30 degrees (13 %), whose bending in its plane shears the faces; coupling "
         "that is less than 2 % of what force and torque do by themselves.",
     .fill = fill,
 };
