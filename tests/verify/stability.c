@@ -2,6 +2,8 @@
  * wings and plates, and the same speeds from time marching. */
 #include "core/analysis/stability.h"
 #include "core/analysis/damping.h"
+#include "core/analysis/equilibrium.h"
+#include "core/coupling/apparent_mass.h"
 #include "core/num.h"
 #include "core/sim.h"
 #include "tests/support/fixture.h"
@@ -49,26 +51,40 @@ static void typical_section(struct check_list *list)
 
 /* -- published wings */
 
-/* Least damped ratio of a march from a small start, of the signal with the most to say: twist. */
-static double marched_damping(const struct case_def *def, double speed)
+/* Start of a march next to its equilibrium: a push of `size` in the first modes. */
+static void start_near_equilibrium(double size, struct case_def *def)
 {
-    struct case_def march = *def;
-    struct failure fail;
-    struct sim *sim = NULL;
-    march.kind = CASE_SIMULATION;
-    march.flow.speed = speed;
-    march.solver.start = START_AMPLITUDES;
-    march.solver.n_amplitude = 2;
-    march.solver.amplitude[0] = march.solver.amplitude[1] = 1e-3;
-    march.output.n_channel = 0;
-    if (sim_create(&march, &sim, &fail) != ST_OK || sim_run(sim, NULL, &fail) != ST_OK) {
-        fprintf(stderr, "%s\n", fail.detail);
+    struct model m;
+    struct workspace w;
+    double residual = 0.0;
+    built_model(def, &m);
+    if (workspace_init(&m, &w) != ST_OK || equilibrium_solve(&m, &w, &residual) != ST_OK) {
         abort();
     }
+    def->solver.start = START_AMPLITUDES;
+    def->solver.n_amplitude = m.n_mode;
+    apparent_mass_to_vacuo(&m, w.q, def->solver.amplitude);
+    for (int j = 0; j < 3 && j < m.n_mode; j++) {
+        def->solver.amplitude[j] += size;
+    }
+    workspace_done(&w);
+    model_done(&m);
+}
+
+/* Damping ratio of the least damped root in the twist of such a march. */
+static double marched_damping(const struct case_def *def, double size, double speed)
+{
+    static struct case_def march; /* large */
+    march = *def;
+    march.kind = CASE_SIMULATION;
+    march.flow.speed = speed;
+    march.output.n_channel = 0;
+    start_near_equilibrium(size, &march);
+    struct sim *sim = built_run(&march);
     const struct damping_result *d = &sim_result(sim)->tip_twist;
     double least = (double)NAN;
     for (int i = 0; i < d->n_root; i++) {
-        if (d->root[i].frequency_hz > 0.0 && d->root[i].amplitude > 1e-3 * d->root[0].amplitude) {
+        if (d->root[i].frequency_hz > 0.0 && d->root[i].amplitude > 0.02 * d->root[0].amplitude) {
             least = fmin(isnan(least) ? HUGE_VAL : least, d->root[i].ratio);
         }
     }
@@ -77,11 +93,13 @@ static double marched_damping(const struct case_def *def, double speed)
 }
 
 /* Speed at which the marched damping changes sign, between two that bracket it. */
-static double marched_flutter(const struct case_def *def, double stable, double unstable)
+static double marched_flutter(const struct case_def *def, double size, double stable,
+                              double unstable)
 {
-    double a = stable, b = unstable, fa = marched_damping(def, a), fb = marched_damping(def, b);
+    double a = stable, b = unstable;
+    double fa = marched_damping(def, size, a), fb = marched_damping(def, size, b);
     for (int i = 0; i < 3; i++) {
-        const double guess = a - fa * (b - a) / (fb - fa), f = marched_damping(def, guess);
+        const double guess = a - fa * (b - a) / (fb - fa), f = marched_damping(def, size, guess);
         if (f > 0.0) {
             a = guess;
             fa = f;
@@ -124,13 +142,69 @@ static void wings(struct check_list *list)
         def.solver.time_step = w->time_step;
         def.solver.duration = w->duration;
         check_add(list, CHECK_RELATIVE, "m/s",
-                  marched_flutter(&def, 0.97 * r.flutter.speed, 1.03 * r.flutter.speed),
+                  marched_flutter(&def, 1e-3, 0.97 * r.flutter.speed, 1.03 * r.flutter.speed),
                   r.flutter.speed, 0.01, "own eigenvalue",
                   "%s: flutter speed from time marching and the matrix pencil", w->name);
         stability_done(&r);
         model_done(&m);
         built_release(c);
     }
+}
+
+/* -- stall, and beams whose chord changes */
+
+/* The paper's beam at 5 degrees with the channel polar and dynamic stall: the eigenvalue about the
+ * stalled equilibrium against marches of tiny amplitude about it. */
+static void stalled(struct check_list *list)
+{
+    struct built_case *c = built_shipped("paper-beam");
+    static struct case_def def; /* large */
+    def = *built_case_def(c);
+    struct model m;
+    def.kind = CASE_STABILITY;
+    def.aero.dynamic = DYNAMIC_STALL;
+    def.stability.from = 6.0;
+    def.stability.to = 16.0;
+    def.stability.count = 11;
+    def.solver.duration = 1.5;
+    def.solver.plunge_max = 10.0; /* the linear beam goes on */
+    built_model(&def, &m);
+    struct stability_result r = stability_of(&m);
+    check_add(list, CHECK_RELATIVE, "m/s",
+              marched_flutter(&def, 1e-6, 0.99 * r.flutter.speed, 1.01 * r.flutter.speed),
+              r.flutter.speed, 0.01, "own eigenvalue",
+              "paper's beam at 5 deg, dynamic stall: flutter speed of small amplitudes, marched");
+    check_add(
+        list, CHECK_ABSOLUTE, "", r.flutter.stalled, 1.0, 0.0, "property",
+        "paper's beam at 5 deg, dynamic stall: flutters with stations beyond the linear range");
+    stability_done(&r);
+    model_done(&m);
+    built_release(c);
+}
+
+/* Lags of the modes (one chord) against lags of the stations (the same wing with a chord that
+ * changes by less than anyone can see). */
+static void wake_of_stations(struct check_list *list)
+{
+    struct built_case *c = built_shipped("goland-stability");
+    static struct case_def def; /* large */
+    def = *built_case_def(c);
+    struct station_def station[2] = {{.z = 0.0, .section = def.beam.section},
+                                     {.z = def.beam.length, .section = def.beam.section}};
+    struct model uniform, tapered;
+    built_model(&def, &uniform);
+    station[1].section.properties.chord *= 1.0 + 1e-9;
+    def.beam.n_station = 2;
+    def.beam.station = station;
+    built_model(&def, &tapered);
+    struct stability_result a = stability_of(&uniform), b = stability_of(&tapered);
+    check_add(list, CHECK_RELATIVE, "m/s", b.flutter.speed, a.flutter.speed, 2e-6, "property",
+              "Goland wing: flutter with lags of the stations, against lags of the modes");
+    stability_done(&a);
+    stability_done(&b);
+    model_done(&uniform);
+    model_done(&tapered);
+    built_release(c);
 }
 
 /* -- the plates of Hollowell and Dugundji */
@@ -233,6 +307,8 @@ static void fill(struct check_list *list)
 {
     typical_section(list);
     wings(list);
+    stalled(list);
+    wake_of_stations(list);
     plates(list);
 }
 
