@@ -32,6 +32,10 @@ static const char *const cases[] = {
     [CASE_STATIC] =
         "{\"schema_version\":1,\"kind\":\"static\",\"beam\":{\"length_m\":0.37," SECTION
         "},\"loads\":{\"tip\":{\"force_y_n\":0.1}},\"output\":{\"stress_at_m\":[0,0.2]}}",
+    [CASE_STABILITY] =
+        "{\"schema_version\":1,\"kind\":\"stability\",\"beam\":{\"length_m\":0.37," SECTION
+        "},\"aerodynamics\":{\"polar\":\"flat-plate-linear\",\"dynamic\":{\"type\":\"attached\"}},"
+        "\"stability\":{\"from_m_s\":2,\"to_m_s\":25,\"count\":24}}",
     [CASE_SECTION] = "{\"schema_version\":1,\"kind\":\"section\",\"beam\":{" SECTION "}}",
 };
 
@@ -95,6 +99,7 @@ static cJSON *document(struct fixture *f, const char *name, const struct sim_res
         {"modes", "#/components/schemas/Modes"},
         {"section", "#/components/schemas/SectionResult"},
         {"static", "#/components/schemas/StaticResult"},
+        {"stability", "#/components/schemas/StabilityResult"},
     };
     struct cJSON *tree = NULL;
     struct failure fail;
@@ -300,6 +305,55 @@ static void test_static_closed_form(void **state)
     json_free(s);
 }
 
+static void test_stability(void **state)
+{
+    struct fixture *f = *state;
+    const struct sim_result *r = run(f, CASE_STABILITY);
+    const struct stability_result *s = &r->stability;
+    cJSON *d = document(f, "summary", r);
+    assert_string_equal(string(d, "verdict"), "divergence");
+    assert_near_abs(number(d, "divergence/speed_m_s"), s->divergence.speed, 0.0);
+    assert_near_abs(number(d, "flutter/mode"), s->flutter.mode + 1, 0.0);
+    assert_true(s->flutter.speed > s->divergence.speed);
+    json_free(d);
+    d = document(f, "stability", r);
+    assert_near_abs(number(d, "speeds_m_s/23"), 25.0, 1e-12);
+    /* V-g: a branch changes its sign between the neighbours of the flutter speed. */
+    const int mode = s->flutter.mode;
+    int i = 0;
+    while (s->speed[i + 1] < s->flutter.speed) {
+        i++;
+    }
+    char path[64];
+    (void)snprintf(path, sizeof path, "branches/%d/damping_ratio/%d", mode, i);
+    assert_true(number(d, path) > 0.0);
+    (void)snprintf(path, sizeof path, "branches/%d/damping_ratio/%d", mode, i + 1);
+    assert_true(number(d, path) < 0.0);
+    assert_near_abs(number(d, "flutter_shape/z_m/32"), 0.37, 1e-15);
+    assert_near_abs(number(d, "flutter_shape/plunge_re_chords/0"), 0.0, 1e-12); /* clamped */
+    json_free(d);
+}
+
+/* A range without instability is an answer, with the least damped mode. */
+static void test_no_instability(void **state)
+{
+    static const char *const calm =
+        "{\"schema_version\":1,\"kind\":\"stability\",\"beam\":{\"length_m\":0.37," SECTION
+        "},\"aerodynamics\":{\"polar\":\"flat-plate-linear\",\"dynamic\":{\"type\":\"attached\"}},"
+        "\"stability\":{\"from_m_s\":2,\"to_m_s\":5}}";
+    struct fixture *f = *state;
+    const struct sim_result *r = run_case(f, calm);
+    cJSON *d = document(f, "summary", r);
+    assert_string_equal(string(d, "verdict"), "stable");
+    assert_string_equal(string(d, "flutter"), "none_in_range");
+    assert_string_equal(string(d, "divergence"), "none_in_range");
+    assert_true(number(d, "least_damped/damping_ratio") > 0.0);
+    json_free(d);
+    d = document(f, "stability", r);
+    assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(d, "flutter_shape")));
+    json_free(d);
+}
+
 static void test_static(void **state)
 {
     struct fixture *f = *state;
@@ -339,8 +393,14 @@ int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
     const struct CMUnitTest tests[] = {
-        TEST(test_simulation),         TEST(test_modes),      TEST(test_section), TEST(test_static),
-        TEST(test_static_closed_form), TEST(test_not_finite),
+        TEST(test_simulation),
+        TEST(test_modes),
+        TEST(test_section),
+        TEST(test_static),
+        TEST(test_stability),
+        TEST(test_no_instability),
+        TEST(test_static_closed_form),
+        TEST(test_not_finite),
     };
     sim_process_init();
     return cmocka_run_group_tests(tests, NULL, NULL);

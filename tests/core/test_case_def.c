@@ -162,6 +162,41 @@ static void rules_across_fields(void **state)
     assert_fault(&def, "/solver/start", "not_finite");
 }
 
+static void stability_is_checked(void **state)
+{
+    (void)state;
+    struct case_def def;
+    good_case(&def);
+    def.kind = CASE_STABILITY;
+    def.flow.speed = 0.0; /* nobody asks for it then, nor for a duration */
+    def.solver.duration = 0.0;
+    def.stability.from = 2.0;
+    def.stability.to = 20.0;
+    check(&def);
+    assert_int_equal(list.count, 0);
+    def.stability.to = 2.0;
+    assert_fault(&def, "/stability/to_m_s", "out_of_range");
+    def.stability.to = 20.0;
+    def.stability.from = 0.0;
+    assert_fault(&def, "/stability/from_m_s", "out_of_range");
+    def.stability.from = 2.0;
+    def.stability.count = 1;
+    assert_fault(&def, "/stability/count", "out_of_range");
+    def.stability.count = 2;
+    def.stability.tolerance = 0.0;
+    assert_fault(&def, "/stability/tolerance", "out_of_range");
+    def.stability.tolerance = 1e-6;
+    def.solver.mode_damping[0] = 1.0;
+    def.solver.n_mode_damping = 1;
+    assert_fault(&def, "/solver/modal_damping_ratios/0", "out_of_range");
+    def.solver.n_mode_damping = 0;
+    struct network_def network = fixture_network(4, 0.1, 1);
+    def.aero.dynamic = DYNAMIC_NETWORK;
+    def.aero.network = &network;
+    assert_fault(&def, "/aerodynamics/dynamic/type", "no_states");
+    network_def_done(&network);
+}
+
 static void runs_too_large_are_refused(void **state)
 {
     (void)state;
@@ -242,6 +277,7 @@ int main(void)
         cmocka_unit_test(every_number_has_its_range),
         cmocka_unit_test(every_count_has_its_range),
         cmocka_unit_test(rules_across_fields),
+        cmocka_unit_test(stability_is_checked),
         cmocka_unit_test(runs_too_large_are_refused),
         cmocka_unit_test(kinds),
         cmocka_unit_test(sizes_of_a_run),
