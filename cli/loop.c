@@ -2,6 +2,7 @@
 
 #include "cli/command.h"
 #include "cli/file.h"
+#include "cli/motion.h"
 #include "cli/options.h"
 #include "cli/report.h"
 
@@ -96,6 +97,12 @@ static int whole(double value, int otherwise)
     return fabs(v) <= 1e6 && fabs(v - nearbyint(v)) < 1e-9 ? (int)lround(v) : -1;
 }
 
+static bool has_sine(const struct options *o)
+{
+    return !(isnan(o->mean_deg) && isnan(o->amplitude_deg) && isnan(o->plunge) &&
+             isnan(o->phase_deg) && isnan(o->cycles) && isnan(o->steps));
+}
+
 static void set_motion(const struct options *o, struct loop_def *d)
 {
     d->mean = num_rad(given(o->mean_deg, 0.0));
@@ -107,13 +114,14 @@ static void set_motion(const struct options *o, struct loop_def *d)
     d->steps = whole(o->steps, d->steps);
 }
 
-static bool print(const struct loop_result *r)
+/* `start` is the time of the first sample. */
+static bool print(const struct loop_result *r, double start)
 {
     (void)printf("t,alpha_deg,w,cl,cd,cm\n");
     for (int i = 0; i < r->n; i++) {
         const double *v = r->value + i;
         const ptrdiff_t n = r->n;
-        (void)printf("%.6g,%.6f,%.6f,%.6f,%.6f,%.6f\n", v[n * LOOP_TIME],
+        (void)printf("%.6g,%.6f,%.6f,%.6f,%.6f,%.6f\n", start + v[n * LOOP_TIME],
                      num_deg(v[n * LOOP_ALPHA]), v[n * LOOP_PLUNGE], v[n * LOOP_CL], v[n * LOOP_CD],
                      v[n * LOOP_CM]);
     }
@@ -122,7 +130,7 @@ static bool print(const struct loop_result *r)
     return fflush(stdout) == 0 && !ferror(stdout);
 }
 
-static bool compute(const struct loop_def *d, struct failure_list *problems)
+static bool compute(const struct loop_def *d, double start, struct failure_list *problems)
 {
     struct loop_result r = {0};
     loop_def_check(d, problems);
@@ -135,7 +143,7 @@ static bool compute(const struct loop_def *d, struct failure_list *problems)
         (void)fprintf(stderr, "aerom: loop: %s\n", status_text(st));
         return false;
     }
-    const bool done = print(&r);
+    const bool done = print(&r, start);
     loop_done(&r);
     return done;
 }
@@ -143,11 +151,14 @@ static bool compute(const struct loop_def *d, struct failure_list *problems)
 int loop_main(int argc, char **argv)
 {
     struct options o;
-    if (!options_parse(argc, argv, "PDNmaflpye", 0, 0, &o) || isnan(o.frequency)) {
+    if (!options_parse(argc, argv, "PDNMmaflpye", 0, 0, &o) ||
+        isnan(o.frequency) == (o.motion == NULL) || (o.motion != NULL && has_sine(&o))) {
         return command_usage("loop");
     }
     struct sources s = {0};
     struct loop_def def;
+    struct loop_motion motion = {0};
+    double start = 0.0;
     struct failure fail = {0};
     bool done = false;
     struct failure_list *problems = calloc(1, sizeof *problems);
@@ -157,11 +168,18 @@ int loop_main(int argc, char **argv)
     }
     loop_def_defaults(&def);
     set_motion(&o, &def);
+    if (o.motion != NULL) {
+        if (!motion_read(o.motion, &motion, &start)) {
+            goto out;
+        }
+        def.motion = &motion;
+    }
     if (find_polar(o.polar != NULL ? o.polar : polar_default, &s, problems, &def.polar) &&
         find_dynamic(&o, &s, &def)) {
-        done = compute(&def, problems);
+        done = compute(&def, start, problems);
     }
 out:
+    free(motion.value);
     entry_set_done(&s.own);
     library_destroy(s.library);
     free(problems);

@@ -16,8 +16,9 @@ static const struct command commands[] = {
     {"run", run_main, "CASE.json [--series FILE.csv] [--document NAME] [--text]",
      "compute a case here and print its summary; CASE '-' reads standard input"},
     {"loop", loop_main,
-     "--frequency F [--polar NAME|FILE.json] [--dynamic TYPE] [--network NAME] [--mean-deg A]\n"
-     "      [--amplitude-deg A] [--plunge W] [--phase-deg A] [--cycles N] [--steps N]",
+     "--frequency F | --motion FILE.csv [--polar NAME|FILE.json] [--dynamic TYPE]\n"
+     "      [--network NAME] [--mean-deg A] [--amplitude-deg A] [--plunge W] [--phase-deg A]\n"
+     "      [--cycles N] [--steps N]",
      "coefficients of a section in prescribed pitch and plunge, as CSV; the last line is the work"},
     {"submit", remote_submit, "CASE.json... [--wait]", "hand cases to the daemon, print their ids"},
     {"wait", remote_wait, "ID... [--timeout SECONDS]", "wait until jobs are finished"},

@@ -16,6 +16,7 @@ struct options {
     const char *polar;    /* -P */
     const char *dynamic;  /* -D */
     const char *network;  /* -N */
+    const char *motion;   /* -M */
     /* Numbers, NaN when not given. */
     double mean_deg;      /* -m */
     double amplitude_deg; /* -a */

@@ -24,8 +24,26 @@ static void refuse(struct failure_list *out, const char *pointer, const char *ex
                 "%s is out of range", pointer);
 }
 
+static void check_table(const struct loop_motion *m, enum dynamic_type dynamic,
+                        struct failure_list *out)
+{
+    if (m->n < 2 || m->n > LOOP_SAMPLES_MAX) {
+        refuse(out, "--motion", "2..1000000 samples", m->n);
+    } else if (!(m->step > 0.0) || !num_all_finite(m->n * MOTION_ROWS, m->value)) {
+        refuse(out, "--motion", "equal steps of time and finite values", m->step);
+    }
+    if (dynamic == DYNAMIC_NETWORK) {
+        failure_set(failure_add(out), ST_INVALID, "--motion", "contradiction", NULL, NULL,
+                    "the mean angle a network sees is that of a cycle: a table has none");
+    }
+}
+
 void loop_def_check(const struct loop_def *def, struct failure_list *out)
 {
+    if (def->motion != NULL) {
+        check_table(def->motion, def->dynamic, out);
+        return;
+    }
     if (!(fabs(def->mean) <= NUM_PI)) {
         refuse(out, "--mean-deg", "-180..180", num_deg(def->mean));
     }
@@ -55,8 +73,23 @@ struct state {
     double w, w_rate, w_acceleration, w_jerk;
 };
 
+static struct state state_of_table(const struct loop_motion *m, int i)
+{
+    return (struct state){
+        .theta = m->value[num_at(i, MOTION_THETA, m->n)],
+        .theta_rate = m->value[num_at(i, MOTION_THETA_RATE, m->n)],
+        .theta_acceleration = m->value[num_at(i, MOTION_THETA_ACCELERATION, m->n)],
+        .w = m->value[num_at(i, MOTION_W, m->n)],
+        .w_rate = m->value[num_at(i, MOTION_W_RATE, m->n)],
+        .w_acceleration = m->value[num_at(i, MOTION_W_ACCELERATION, m->n)],
+    };
+}
+
 static struct state state_at(const struct loop_def *d, int step)
 {
+    if (d->motion != NULL) {
+        return state_of_table(d->motion, step);
+    }
     const double omega = 2.0 * NUM_PI * d->frequency;
     /* Within the cycle, so that cycles are equal to the last bit. */
     const double x = 2.0 * NUM_PI * (step % d->steps) / d->steps, y = x + d->phase;
@@ -69,6 +102,20 @@ static struct state state_at(const struct loop_def *d, int step)
         .w_acceleration = -d->plunge * omega * omega * sin(y),
         .w_jerk = -d->plunge * omega * omega * omega * cos(y),
     };
+}
+
+static double time_step(const struct loop_def *d)
+{
+    return d->motion != NULL ? d->motion->step : 1.0 / (d->frequency * d->steps);
+}
+
+/* Weight of sample i in the integrals over the last cycle, which closes on itself, or the table. */
+static double weight(const struct loop_def *d, int n, int i)
+{
+    if (d->motion != NULL) {
+        return i == 0 || i == n - 1 ? 0.5 : 1.0;
+    }
+    return i >= n - d->steps ? 1.0 : 0.0;
 }
 
 /* Everything the models keep while they march one station. */
@@ -92,7 +139,7 @@ static void station_done(struct station *s)
 /* The caller clears up what a failure leaves half built. */
 static enum status station_init(const struct loop_def *d, struct station *s)
 {
-    const double dt = 1.0 / (d->frequency * d->steps);
+    const double dt = time_step(d);
     enum status st = polar_create(d->polar, &s->polar);
     if (st == ST_OK && d->dynamic == DYNAMIC_NETWORK) {
         st = network_create(d->network, &s->network);
@@ -173,7 +220,7 @@ static void add_apparent_mass(const struct station *s, const struct state *m, do
 
 static void march(const struct loop_def *d, struct station *s, struct loop_result *r)
 {
-    const double dt = 1.0 / (d->frequency * d->steps);
+    const double dt = time_step(d);
     for (int i = 0; i < r->n; i++) {
         const struct state m = state_at(d, i);
         const double alpha = effective_angle(s, &m, i == 0);
@@ -190,10 +237,8 @@ static void march(const struct loop_def *d, struct station *s, struct loop_resul
         for (int k = 0; k < LOOP_QUANTITIES; k++) {
             r->value[num_at(i, k, r->n)] = c[k];
         }
-        if (i >= r->n - d->steps) {
-            r->work_pitch += c[LOOP_CM] * m.theta_rate * dt;
-            r->work_plunge += c[LOOP_CL] * m.w_rate * dt;
-        }
+        r->work_pitch += weight(d, r->n, i) * c[LOOP_CM] * m.theta_rate * dt;
+        r->work_plunge += weight(d, r->n, i) * c[LOOP_CL] * m.w_rate * dt;
     }
 }
 
@@ -202,7 +247,8 @@ enum status loop_run(const struct loop_def *def, struct loop_result *out)
     assert(def->polar != NULL);
     assert(def->dynamic != DYNAMIC_NETWORK || def->network != NULL);
     struct station station = {0};
-    struct loop_result r = {.n = def->cycles * def->steps + 1};
+    struct loop_result r = {.n = def->motion != NULL ? def->motion->n
+                                                     : def->cycles * def->steps + 1};
     enum status st = station_init(def, &station);
     if (st == ST_OK) {
         r.value = malloc((size_t)r.n * LOOP_QUANTITIES * sizeof *r.value);

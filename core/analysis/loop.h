@@ -9,7 +9,23 @@
 
 #include "core/case_def.h"
 
-/* theta = mean + amplitude sin(2 pi f t), w = plunge sin(2 pi f t + phase). */
+/* A motion given as a table at equal steps. The section stands still before. */
+enum loop_motion_row {
+    MOTION_THETA, /* [rad] */
+    MOTION_THETA_RATE,
+    MOTION_THETA_ACCELERATION, /* by c/V */
+    MOTION_W,                  /* w/c */
+    MOTION_W_RATE,
+    MOTION_W_ACCELERATION,
+    MOTION_ROWS
+};
+struct loop_motion {
+    int n;         /* 2..LOOP_SAMPLES_MAX */
+    double step;   /* c/V, > 0 */
+    double *value; /* (n x MOTION_ROWS), time fastest; whose it is, the caller says */
+};
+
+/* theta = mean + amplitude sin(2 pi f t), w = plunge sin(2 pi f t + phase), or a table. */
 struct loop_def {
     const struct polar_def *polar; /* borrowed */
     enum dynamic_type dynamic;
@@ -20,8 +36,16 @@ struct loop_def {
     double frequency;                  /* f c/V, > 0 */
     int cycles;                        /* 1..LOOP_CYCLES_MAX; steady flow at t = 0 before */
     int steps;                         /* a cycle, LOOP_STEPS_MIN..LOOP_STEPS_MAX */
+    /* Instead of all six above, borrowed, NULL for none. Not with DYNAMIC_NETWORK, whose mean angle
+     * is that of a cycle. */
+    const struct loop_motion *motion;
 };
-enum { LOOP_CYCLES_MAX = 1000, LOOP_STEPS_MIN = 16, LOOP_STEPS_MAX = 10000 };
+enum {
+    LOOP_CYCLES_MAX = 1000,
+    LOOP_STEPS_MIN = 16,
+    LOOP_STEPS_MAX = 10000,
+    LOOP_SAMPLES_MAX = 1000000
+};
 
 /* Polar NULL, no network; 10 cycles of 400 steps; the rest zero. */
 void loop_def_defaults(struct loop_def *def);
@@ -39,10 +63,10 @@ enum loop_quantity {
 };
 
 struct loop_result {
-    int n;         /* cycles x steps + 1 */
+    int n;         /* cycles x steps + 1, or the samples of the table */
     double *value; /* (n x LOOP_QUANTITIES), owned */
-    /* What the flow feeds into the motion over the last cycle, by rho V^2 c^2/2: the integrals of
-     * c_m d(theta) and c_l d(w/c). Positive feeds, negative damps. */
+    /* What the flow feeds into the motion over the last cycle, or all of a table, by rho V^2 c^2/2:
+     * the integrals of c_m d(theta) and c_l d(w/c). Positive feeds, negative damps. */
     double work_pitch, work_plunge;
     long outside_polar; /* steps outside the table */
 };

@@ -111,9 +111,39 @@ class Loop(unittest.TestCase):
             self.assertEqual(result.returncode, 1)
             self.assertIn("/dynamic_stall/vortex_lag", result.stderr)
 
+    def test_motion_of_a_table(self):
+        """The sine of one cycle as a table, with a column more and the times of its own."""
+        omega, amplitude = 2 * math.pi * 0.1, math.radians(3)
+        lines = ["t,cl,alpha_deg,alpha_dot,alpha_ddot"]
+        for i in range(401):
+            x = omega * i / 40
+            lines.append("%.4f,0,%.9f,%.9f,%.9f" % (
+                5 + i / 40, 3 * math.sin(x), amplitude * omega * math.cos(x),
+                -amplitude * omega ** 2 * math.sin(x)))
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "motion.csv"
+            path.write_text("\n".join(lines) + "\n", encoding="ascii")
+            rows, _ = self.loop("--dynamic", "dynamic_stall", "--motion", path)
+            sine, _ = self.loop("--dynamic", "dynamic_stall", "--amplitude-deg", 3, "--frequency", 0.1,
+                                "--cycles", 1)
+            self.assertEqual((len(rows), rows[0]["t"]), (401, 5))
+            for a, b in zip(rows, sine):
+                self.assertAlmostEqual(a["cl"], b["cl"], delta=2e-6)
+                self.assertAlmostEqual(a["cm"], b["cm"], delta=2e-6)
+            for change, word in ((("alpha_ddot", "other"), "alpha_ddot"), (("5.0500", "5.0510"), "equal"),
+                                 (("5.0500,0", "5.0500,x"), "line 4"), (("5.0500,0,", "5.0500,"), "line 4")):
+                path.write_text("\n".join(lines).replace(*change), encoding="ascii")
+                result = aerom("loop", "--motion", path)
+                self.assertEqual((result.returncode, result.stdout), (1, ""))
+                self.assertIn(word, result.stderr)
+            path.write_text(lines[0] + "\n", encoding="ascii")
+            self.assertIn("2..1000000", aerom("loop", "--motion", path).stderr)
+
     def test_bad_motion(self):
         for arguments, code, word in (
                 ((), 2, "usage"), (("--frequency", "fast"), 2, "fast"),
+                (("--motion", "a.csv", "--frequency", 1), 2, "usage"),
+                (("--motion", "a.csv", "--mean-deg", 1), 2, "usage"),
                 (("--frequency", 0), 1, "--frequency"), (("--frequency", 0.1, "--cycles", 1.5), 1,
                                                          "--cycles"),
                 (("--frequency", 0.1, "--polar", "none"), 1, "--polar"),

@@ -127,6 +127,59 @@ static void quasi_steady_loops_are_closed(void **state)
     polar_def_done(&polar);
 }
 
+/* A table of the same sine is the same motion: the same loop, and the work of its cycles. */
+static void a_table_is_the_motion_it_holds(void **state)
+{
+    (void)state;
+    enum { STEPS = 200, CYCLES = 3, N = STEPS * CYCLES + 1 };
+    struct polar_def polar = fixture_linear_polar(8.0, 1.2, 0.02, 0.4);
+    polar.cl[0] = -1.0; /* bends: stalled beyond 0.2 */
+    polar.cl[4] = 1.0;
+    polar.linear_from = -0.2;
+    polar.linear_to = 0.2;
+    struct loop_def d;
+    struct loop_result r, t;
+    static double value[N * MOTION_ROWS];
+    loop_def_defaults(&d);
+    d.polar = &polar;
+    d.dynamic = DYNAMIC_STALL;
+    d.frequency = 0.07;
+    d.mean = 0.1;
+    d.amplitude = 0.2;
+    d.plunge = 0.1;
+    d.phase = 1.0;
+    d.cycles = CYCLES;
+    d.steps = STEPS;
+    run(&d, &r);
+    const double omega = 2.0 * NUM_PI * d.frequency;
+    for (int i = 0; i < N; i++) {
+        const double x = 2.0 * NUM_PI * i / STEPS, y = x + 1.0;
+        const double row[MOTION_ROWS] = {
+            0.1 + 0.2 * sin(x), 0.2 * omega * cos(x), -0.2 * omega * omega * sin(x),
+            0.1 * sin(y),       0.1 * omega * cos(y), -0.1 * omega * omega * sin(y)};
+        for (int k = 0; k < MOTION_ROWS; k++) {
+            value[num_at(i, k, N)] = row[k];
+        }
+    }
+    const struct loop_motion motion = {.n = N, .step = 1.0 / (d.frequency * STEPS), .value = value};
+    d.motion = &motion;
+    run(&d, &t);
+    assert_int_equal(t.n, r.n);
+    for (int i = 0; i < N * LOOP_QUANTITIES; i++) {
+        assert_near_abs(t.value[i], r.value[i], 1e-11);
+    }
+    /* The work of all three cycles; the first starts in steady flow. */
+    double work = 0.0;
+    for (int i = 0; i + 1 < N; i++) {
+        work += 0.5 * (at(&r, LOOP_CM, i) + at(&r, LOOP_CM, i + 1)) *
+                (at(&r, LOOP_ALPHA, i + 1) - at(&r, LOOP_ALPHA, i));
+    }
+    assert_near_abs(t.work_pitch, work, 1e-3 * fabs(work));
+    loop_done(&r);
+    loop_done(&t);
+    polar_def_done(&polar);
+}
+
 /* The network sees angle and rates of the motion; its increments are added. */
 static void the_network_is_added(void **state)
 {
@@ -189,6 +242,19 @@ static void bad_motions_are_refused(void **state)
         assert_int_equal(problems.total, 1);
         assert_string_equal(problems.item[0].pointer, bad[i].pointer);
     }
+    static double rest[2 * MOTION_ROWS], wild[2 * MOTION_ROWS] = {0.0, (double)NAN};
+    const struct loop_motion motion[] = {{.n = 1, .step = 0.1, .value = rest},
+                                         {.n = 2, .step = 0.0, .value = rest},
+                                         {.n = 2, .step = 0.1, .value = wild},
+                                         {.n = 2, .step = 0.1, .value = rest}};
+    for (size_t i = 0; i < sizeof motion / sizeof motion[0]; i++) {
+        const struct loop_def d = {.motion = &motion[i],
+                                   .dynamic = i < 3 ? DYNAMIC_NONE : DYNAMIC_NETWORK};
+        problems.count = problems.total = 0;
+        loop_def_check(&d, &problems);
+        assert_int_equal(problems.total, 1);
+        assert_string_equal(problems.item[0].pointer, "--motion");
+    }
 }
 
 int main(void)
@@ -196,6 +262,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(attached_loops_are_theodorsens),
         cmocka_unit_test(quasi_steady_loops_are_closed),
+        cmocka_unit_test(a_table_is_the_motion_it_holds),
         cmocka_unit_test(the_network_is_added),
         cmocka_unit_test(bad_motions_are_refused),
     };
