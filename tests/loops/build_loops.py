@@ -3,9 +3,9 @@
 
     build_loops.py [--aerom build/release/bin/aerom]
 
-Every sine record of the index in the middle of the channel at Re 20,000 is run through `aerom loop` with the
-shipped polar; the last of 20 cycles is compared with the average cycle of the record. Python 3 standard
-library."""
+Every sine and broadband record of the index in the middle of the channel at Re 20,000 is run through
+`aerom loop` with the shipped polar: of sines the last of 20 cycles is compared with the average cycle of the
+record, of the others all samples after the start. Python 3 standard library."""
 
 import argparse
 import csv
@@ -28,6 +28,7 @@ DRAWINGS = ROOT / "docs" / "loops"
 POLAR = ROOT / "data" / "polars" / "plate-4pct-channel.json"
 POINTS = build_harmonics.POINTS
 CYCLES = 20
+SETTLED = 6.0  # broadband records count from here on, in c/V
 MODELS = (  # key, options of aerom, name, colour
     ("none", ("--dynamic", "none"), "quasi-steady", "#9aa0a6"),
     ("attached", ("--dynamic", "attached"), "attached", "#1f6fb4"),
@@ -38,12 +39,16 @@ DRAWN = ("pitch_m0_a1_f0.125", "pitch_m2.5_a5_f0.125", "pitch_m5_a7_f0.25", "pit
          "pitchplunge_m2.5_a4_w0.15_f0.125", "plunge_m4_w0.15_f0.08", "plunge_m8_w0.15_f0.08")
 
 
-def sine_rows():
-    """Lines of the index that are comparable sines, in the order of the design."""
+def index_rows(kind):
+    """Lines of the index that are comparable, of the blocks of one kind, in the order of the design."""
     with open(CFD / "index.csv", newline="", encoding="ascii") as file:
-        rows = [row for row in csv.DictReader(file) if row["status"] == "done" and int(row["cycles"])]
-    return [row for row in rows if row["block"].startswith("sine_") and float(row["plunge_c"]) == 0.0
-            and row["re"] == "20000"]
+        rows = list(csv.DictReader(file))
+    return [row for row in rows if row["status"] == "done" and row["block"].startswith(kind)
+            and float(row["plunge_c"]) == 0.0 and row["re"] == "20000"]
+
+
+def sine_rows():
+    return index_rows("sine_")
 
 
 def terms(row):
@@ -125,6 +130,34 @@ def compare(aerom, row, own):
         cycle = model_cycle(aerom, options, own if key == "own" else POLAR, row, pitch, plunge)
         result[key] = {"cycle": cycle, "work": work(cycle, pitch, plunge),
                        "misfit": {c: misfit(cycle, reference, c) for c in ("cl", "cd", "cm")}}
+    return result
+
+
+def compare_broadband(aerom, row, own):
+    """Misfits over a whole record, and the mean power of the flow on the motion."""
+    path = CFD / "records" / (row["name"] + ".csv")
+    with open(path, newline="", encoding="ascii") as file:
+        record = [{k: float(v) for k, v in line.items()} for line in csv.DictReader(file)]
+    first = next(i for i, line in enumerate(record) if line["t"] >= SETTLED)
+
+    def series(lines):
+        lines = lines[first:]
+        power = statistics.fmean(c["cm"] * m["alpha_dot"] + c["cl"] * m["w_dot"]
+                                 for c, m in zip(lines, record[first:]))
+        return {"power": power, **{key: [line[key] for line in lines] for key in ("cl", "cd", "cm")}}
+
+    result = {"row": row, "cfd": series(record)}
+    for key, options, _, _ in MODELS:
+        command = [aerom, "loop", *options, "--polar", str(own if key == "own" else POLAR), "--motion",
+                   str(path)]
+        run = subprocess.run(command, capture_output=True, text=True, check=False)
+        if run.returncode != 0:
+            raise SystemExit("%s\n%s" % (" ".join(command), run.stderr))
+        lines = [{k: float(v) for k, v in line.items()}
+                 for line in csv.DictReader(run.stdout.splitlines()[:-1])]
+        answer = series(lines)
+        result[key] = {"power": answer["power"],
+                       "misfit": {c: misfit(answer, result["cfd"], c) for c in ("cl", "cd", "cm")}}
     return result
 
 
@@ -231,6 +264,22 @@ def motion_text(item):
     return ", ".join(parts)
 
 
+def broadband_table(items):
+    yield "| record | mean power | " + " | ".join("%s: c_l, c_m, power" % name
+                                                   for _, _, name, _ in MODELS) + " |"
+    yield "|---|---|" + "---|" * len(MODELS)
+    for item in items:
+        cells = ["`%s`" % item["row"]["name"], signed(item["cfd"]["power"])]
+        cells += ["%.0f %%, %.0f %%, %s" % (item[key]["misfit"]["cl"], item[key]["misfit"]["cm"],
+                                          signed(item[key]["power"])) for key, _, _, _ in MODELS]
+        yield "| " + " | ".join(cells) + " |"
+    if len(items) > 1:
+        cells = ["median", ""]
+        cells += ["%.0f %%, %.0f %%" % tuple(statistics.median(i[key]["misfit"][c] for i in items)
+                                             for c in ("cl", "cm")) for key, _, _, _ in MODELS]
+        yield "| " + " | ".join(cells) + " |"
+
+
 def same_sign(model, reference):
     """Rounding has no sign."""
     return abs(model) > 1e-6 and model * reference > 0.0
@@ -272,12 +321,12 @@ def summary(items):
                          / scale) for key, _, _, _ in MODELS) + " |"
 
 
-def page(items, own):
+def page(items, broadband, own):
     with open(Path(__file__).with_name("text.md"), encoding="utf-8") as file:
         before, after = file.read().split("<!-- numbers -->\n")
     yield before.rstrip("\n")
     yield ""
-    yield "%d records. The slope and centre of the last column are the polar's own: %.2f per rad and %.3f c." % (
+    yield "%d sines. The slope and centre of the last column are the polar's own: %.2f per rad and %.3f c." % (
         len(items), own[0], own[1])
     yield ""
     yield from summary(items)
@@ -294,6 +343,14 @@ def page(items, own):
                     yield ""
                     yield "![%s at f c/V = %g](loops/%s.svg)" % (
                         motion_text(item), (item["pitch"] or item["plunge"])[1], item["row"]["name"])
+    if broadband:
+        yield ""
+        yield "## Broadband"
+        yield ""
+        yield ("Several tones or a sweep at once, in pitch, plunge or both (data/cfd/design.csv); the "
+               "misfits are over the range of the record, which its extremes stretch.")
+        yield ""
+        yield from broadband_table(broadband)
     yield ""
     yield after.rstrip("\n")
 
@@ -305,11 +362,12 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         path, own = own_slope(folder)
         items = [compare(arguments.aerom, row, path) for row in sine_rows()]
+        broadband = [compare_broadband(arguments.aerom, row, path) for row in index_rows("broadband_")]
     items.sort(key=lambda i: ((i["pitch"] or i["plunge"])[1], float(i["row"]["mean_deg"])))
     for item in items:
         if item["row"]["name"] in DRAWN:
             (DRAWINGS / (item["row"]["name"] + ".svg")).write_text(drawing(item), encoding="utf-8")
-    PAGE.write_text("\n".join(page(items, own)) + "\n", encoding="utf-8")
+    PAGE.write_text("\n".join(page(items, broadband, own)) + "\n", encoding="utf-8")
     return 0
 
 
