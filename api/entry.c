@@ -104,8 +104,8 @@ bool entry_read_polar(struct reader *r, const struct cJSON *json, struct entry_s
            hash_table(r, polar_fields, e, e->def.hash);
 }
 
-enum status entry_parse_polar(const char *text, size_t size, struct entry_set *set,
-                              struct failure_list *problems)
+enum status entry_parse(const char *text, size_t size, entry_reader read_one, struct entry_set *set,
+                        struct failure_list *problems)
 {
     struct cJSON *tree = NULL;
     struct failure fail = {0};
@@ -117,7 +117,7 @@ enum status entry_parse_polar(const char *text, size_t size, struct entry_set *s
         return st;
     }
     json_check(&r, tree);
-    const bool read = problems->total == 0 && entry_read_polar(&r, tree, set);
+    const bool read = problems->total == 0 && read_one(&r, tree, set);
     json_free(tree);
     if (read) {
         return ST_OK;

@@ -50,11 +50,10 @@ bool entry_read_material(struct reader *r, const struct cJSON *json, struct entr
 bool entry_read_polar(struct reader *r, const struct cJSON *json, struct entry_set *set);
 bool entry_read_network(struct reader *r, const struct cJSON *json, struct entry_set *set);
 
-/* One polar from the text of a document into an own set. ST_INVALID with *problems filled. */
-MUST_CHECK enum status entry_parse_polar(const char *text, size_t size, struct entry_set *set,
-                                         struct failure_list *problems);
-
 typedef bool (*entry_reader)(struct reader *r, const struct cJSON *json, struct entry_set *set);
+/* One entry from the text of a document into an own set. ST_INVALID with *problems filled. */
+MUST_CHECK enum status entry_parse(const char *text, size_t size, entry_reader read_one,
+                                   struct entry_set *set, struct failure_list *problems);
 /* Reads an array of documents; false when one of them has a problem. */
 bool entry_read_list(struct reader *r, const struct cJSON *json, struct entry_set *set,
                      entry_reader read_one);

@@ -18,7 +18,7 @@
 
 static const char *const polar_default = "plate-4pct-channel";
 
-/* What the options name: the polar of the library or of a file, the network of the library. */
+/* What the options name: polar and network of the library or of a file each. */
 struct sources {
     struct library *library;
     struct entry_set own;
@@ -30,14 +30,15 @@ static bool is_file(const char *name)
     return length > 5 && strcmp(name + length - 5, ".json") == 0;
 }
 
-static bool read_polar(const char *file, struct sources *s, struct failure_list *problems)
+static bool read_entry(const char *file, entry_reader read_one, struct sources *s,
+                       struct failure_list *problems)
 {
     char *text = NULL;
     size_t size = 0;
     if (!file_read(file, router_body_max("POST", "/v1/jobs"), &text, &size)) {
         return false;
     }
-    const enum status st = entry_parse_polar(text, size, &s->own, problems);
+    const enum status st = entry_parse(text, size, read_one, &s->own, problems);
     free(text);
     if (st != ST_OK) {
         report_failures(stderr, file, problems);
@@ -49,7 +50,7 @@ static bool find_polar(const char *name, struct sources *s, struct failure_list 
                        const struct polar_def **out)
 {
     if (is_file(name)) {
-        if (!read_polar(name, s, problems)) {
+        if (!read_entry(name, entry_read_polar, s, problems)) {
             return false;
         }
         *out = &s->own.polar[0].def;
@@ -62,7 +63,25 @@ static bool find_polar(const char *name, struct sources *s, struct failure_list 
     return *out != NULL;
 }
 
-static bool find_dynamic(const struct options *o, const struct sources *s, struct loop_def *d)
+static bool find_network(const char *name, struct sources *s, struct failure_list *problems,
+                         const struct network_def **out)
+{
+    if (is_file(name)) {
+        if (!read_entry(name, entry_read_network, s, problems)) {
+            return false;
+        }
+        *out = &s->own.network[0].def;
+        return true;
+    }
+    *out = library_network(s->library, name);
+    if (*out == NULL) {
+        (void)fprintf(stderr, "aerom: --network: the library has no network '%s'\n", name);
+    }
+    return *out != NULL;
+}
+
+static bool find_dynamic(const struct options *o, struct sources *s, struct failure_list *problems,
+                         struct loop_def *d)
 {
     if (o->dynamic != NULL && !dynamic_type_parse(o->dynamic, &d->dynamic)) {
         (void)fprintf(stderr,
@@ -75,14 +94,7 @@ static bool find_dynamic(const struct options *o, const struct sources *s, struc
         (void)fprintf(stderr, "aerom: --network goes with, and only with, --dynamic network\n");
         return false;
     }
-    if (o->network == NULL) {
-        return true;
-    }
-    d->network = library_network(s->library, o->network);
-    if (d->network == NULL) {
-        (void)fprintf(stderr, "aerom: --network: the library has no network '%s'\n", o->network);
-    }
-    return d->network != NULL;
+    return o->network == NULL || find_network(o->network, s, problems, &d->network);
 }
 
 static double given(double value, double otherwise)
@@ -175,7 +187,7 @@ int loop_main(int argc, char **argv)
         def.motion = &motion;
     }
     if (find_polar(o.polar != NULL ? o.polar : polar_default, &s, problems, &def.polar) &&
-        find_dynamic(&o, &s, &def)) {
+        find_dynamic(&o, &s, problems, &def)) {
         done = compute(&def, start, problems);
     }
 out:

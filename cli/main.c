@@ -17,7 +17,8 @@ static const struct command commands[] = {
      "compute a case here and print its summary; CASE '-' reads standard input"},
     {"loop", loop_main,
      "--frequency F | --motion FILE.csv [--polar NAME|FILE.json] [--dynamic TYPE]\n"
-     "      [--network NAME] [--mean-deg A] [--amplitude-deg A] [--plunge W] [--phase-deg A]\n"
+     "      [--network NAME|FILE.json] [--mean-deg A] [--amplitude-deg A] [--plunge W] "
+     "[--phase-deg A]\n"
      "      [--cycles N] [--steps N]",
      "coefficients of a section in prescribed pitch and plunge, as CSV; the last line is the work"},
     {"submit", remote_submit, "CASE.json... [--wait]", "hand cases to the daemon, print their ids"},

@@ -111,6 +111,28 @@ class Loop(unittest.TestCase):
             self.assertEqual(result.returncode, 1)
             self.assertIn("/dynamic_stall/vortex_lag", result.stderr)
 
+    def test_network_of_a_file(self):
+        """A network whose only neuron stays in the linear range: c_l + 0.5 of the rate of the angle."""
+        network = {"name": "rate", "activation": "tanh", "inputs": ["alpha_rate"], "outputs": ["cl"],
+                   "hidden": 1, "input_offset": [0], "input_scale": [1], "output_offset": [0],
+                   "output_scale": [1], "hull_min": [-1], "hull_max": [1], "w1": [[1e-4]], "b1": [0],
+                   "w2": [[5e3]], "b2": [0]}
+        motion = ("--polar", "flat-plate-linear", "--amplitude-deg", 4, "--frequency", 0.1,
+                  "--cycles", 1)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "net.json"
+            path.write_text(json.dumps(network), encoding="utf-8")
+            rows, _ = self.loop("--dynamic", "network", "--network", path, *motion)
+            path.write_text(json.dumps({**network, "b1": [0, 0]}), encoding="utf-8")
+            result = aerom("loop", "--dynamic", "network", "--network", path, *motion)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("/b1", result.stderr)
+        plain, _ = self.loop(*motion)
+        omega = 2 * math.pi * 0.1
+        for with_net, without in zip(rows, plain):
+            rate = math.radians(4) * omega * math.cos(omega * without["t"])
+            self.assertAlmostEqual(with_net["cl"] - without["cl"], 0.5 * rate, delta=2e-6)
+
     def test_motion_of_a_table(self):
         """The sine of one cycle as a table, with a column more and the times of its own."""
         omega, amplitude = 2 * math.pi * 0.1, math.radians(3)
