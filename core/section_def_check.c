@@ -95,6 +95,22 @@ static void check_section(const struct section_def *section, enum shear_model sh
     }
 }
 
+/* With retained shear flexible walls bring a freedom to every node of the beam (beam.h). */
+static void check_wall_shear(const struct section_def *section, const struct section_def *before,
+                             const char *pointer, struct failure_list *out)
+{
+    static const char *const name[] = {
+        [WALL_SHEAR_RIGID] = "rigid", [WALL_SHEAR_FLEXIBLE] = "flexible"};
+    const enum wall_shear walls = section->shape.wall_shear, wanted = before->shape.wall_shear;
+    if (walls != wanted) {
+        char at[160], expected[64];
+        (void)snprintf(at, sizeof at, "%.120s/wall_shear", pointer);
+        (void)snprintf(expected, sizeof expected, "\"%s\", as the station before", name[wanted]);
+        failure_set(failure_add(out), ST_INVALID, at, "walls_differ", expected, name[walls],
+                    "a beam that keeps its shear has rigid or flexible walls throughout");
+    }
+}
+
 /* Stations ascend from the root to the tip, at most two at one place between them, and neighbours
  * apart from each other can be blended. */
 static void check_stations(const struct beam_def *b, struct failure_list *out)
@@ -103,6 +119,9 @@ static void check_stations(const struct beam_def *b, struct failure_list *out)
     for (int i = 0; i < b->n_station; i++) {
         (void)snprintf(pointer, sizeof pointer, "/beam/stations/%d/section", i);
         check_section(&b->station[i].section, beam_def_root(b)->shear, pointer, out);
+        if (i > 0 && beam_def_root(b)->shear == SHEAR_RETAINED) {
+            check_wall_shear(&b->station[i].section, &b->station[i - 1].section, pointer, out);
+        }
         (void)snprintf(pointer, sizeof pointer, "/beam/stations/%d/z_m", i);
         const double z = b->station[i].z, last = i > 0 ? b->station[i - 1].z : 0.0;
         const bool placed = isfinite(z) && (i == 0 ? z == 0.0 : z >= last) &&

@@ -8,6 +8,9 @@
 
 #define PLY "{\"material\":\"aluminium\",\"thickness_m\":0.001}"
 #define STRIP "{\"type\":\"strip\",\"chord_m\":0.1,\"layup\":[" PLY "]}"
+#define SOFT                                                                                       \
+    "{\"type\":\"strip\",\"chord_m\":0.1,\"shear\":\"retained\",\"wall_shear\":\"flexible\","      \
+    "\"layup\":[" PLY "]}"
 #define BOX_OF(layup_) "{\"type\":\"box\",\"width_m\":0.1,\"height_m\":0.05," layup_ "}"
 #define BOX BOX_OF("\"layup\":[" PLY "]")
 #define WALLS                                                                                      \
@@ -308,6 +311,9 @@ static const struct bad bad_cases[] = {
      "/beam/stations/2/z_m", "misplaced_station"},
     {MODES_CASE("\"stations\":[" STATION(0, STRIP) "," STATION(1, BOX) "]"), "/beam/stations/1/z_m",
      "stations_differ"},
+    {MODES_CASE("\"stations\":[" STATION(0, SOFT) "," STATION(0.5, SOFT) "," STATION(
+         0.5, STRIP) "," STATION(1, STRIP) "]"),
+     "/beam/stations/2/section/wall_shear", "walls_differ"},
     {MODES_CASE("\"stations\":[" STATION(0, STRIP) ",{\"z_m\":1,\"section\":{\"type\":\"strip\","
                                                    "\"chord_m\":0,\"layup\":[" PLY "]}}]"),
      "/beam/stations/1/section/chord_m", "out_of_range"},
