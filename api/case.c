@@ -151,9 +151,10 @@ static enum status identify(struct api_case *c)
     field_write(&identity, case_fields, kind, c);
     json_string(&identity, AEROM_CORE_VERSION);
     write_materials(&identity, c);
-    const bool flows = case_kind_flows(c->def.kind);
+    const bool flows = case_def_flows(&c->def);
     json_string(&identity, flows ? c->def.aero.polar->hash : NULL);
-    json_string(&identity, flows && c->def.aero.network != NULL ? c->def.aero.network->hash : NULL);
+    const bool moves = case_kind_flows(c->def.kind);
+    json_string(&identity, moves && c->def.aero.network != NULL ? c->def.aero.network->hash : NULL);
     const bool ok = !identity.failed && c->canonical != NULL;
     if (ok) {
         hash_text(identity.text, identity.size, c->hash);

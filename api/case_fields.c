@@ -68,14 +68,16 @@ static const char *const start_names[] = {[START_REST] = "rest",
 enum {
     ALL = 0,
     SIMULATION = CASE_IN_SIMULATION,
-    FLOWS = CASE_IN_SIMULATION | CASE_IN_STABILITY,
+    FLOWS = CASE_IN_SIMULATION | CASE_IN_STABILITY | CASE_IN_STATIC,
+    AT_A_SPEED = CASE_IN_SIMULATION | CASE_IN_STATIC,
+    MOVING = CASE_IN_SIMULATION | CASE_IN_STABILITY,
     MODAL = CASE_IN_SIMULATION | CASE_IN_MODES | CASE_IN_STABILITY,
     STATIC = CASE_IN_STATIC,
     STABILITY = CASE_IN_STABILITY
 };
 
 static const struct field flow_fields[] = {
-    NUMBER("speed_m_s", def.flow.speed, SIMULATION, positive, .required = true),
+    NUMBER("speed_m_s", def.flow.speed, AT_A_SPEED, positive, .required = true),
     NUMBER("density_kg_m3", def.flow.density, FLOWS, not_negative, .unit = 1.0),
     NUMBER("kinematic_viscosity_m2_s", def.flow.kinematic_viscosity, FLOWS, positive, .unit = 1.0),
     NUMBER("incidence_deg", def.flow.incidence, FLOWS, incidence, .unit = FIELD_DEGREE),
@@ -119,7 +121,7 @@ static const struct field aerodynamics_fields[] = {
      .kinds = FLOWS,
      .read = case_read_polar,
      .write = case_write_polar},
-    OBJECT("dynamic", dynamic_fields, .kinds = FLOWS),
+    OBJECT("dynamic", dynamic_fields, .kinds = MOVING),
     OBJECT("lifting_line", lifting_line_fields, .kinds = FLOWS, .nullable = true,
            .offset = AT(def.aero.lifting_line)),
     {0},
@@ -184,10 +186,10 @@ static const struct field solver_fields[] = {
     NUMBER("tolerance", def.solver.tolerance, SIMULATION, step_tolerance, .unit = 1.0),
     INTEGER("load_order", def.solver.load_order, SIMULATION, load_order),
     OBJECT("start", start_fields, .kinds = SIMULATION),
-    NUMBER("modal_damping_ratio", def.solver.modal_damping, FLOWS, damping, .unit = 1.0),
+    NUMBER("modal_damping_ratio", def.solver.modal_damping, MOVING, damping, .unit = 1.0),
     {.key = "modal_damping_ratios",
      .kind = FIELD_ARRAY,
-     .kinds = FLOWS,
+     .kinds = MOVING,
      .offset = AT(def.solver.mode_damping),
      .count = AT(def.solver.n_mode_damping),
      .max = LIMIT_MODES,
@@ -226,6 +228,12 @@ static const struct field output_fields[] = {
     {0},
 };
 
+/* A static case may be without. */
+static bool has_no_stream(const void *base)
+{
+    return !case_def_flows(&((const struct api_case *)base)->def);
+}
+
 /* Definitions before what refers to them. */
 const struct field case_fields[] = {
     {.key = "schema_version",
@@ -252,15 +260,16 @@ const struct field case_fields[] = {
      .write = case_write_polars},
     {.key = "networks",
      .kind = FIELD_CUSTOM,
-     .kinds = FLOWS,
+     .kinds = MOVING,
      .omit = case_has_no_own_network,
      .read = case_read_networks,
      .write = case_write_networks},
     OBJECT("beam", beam_fields, .required = true, .finish = beam_finish),
     OBJECT("loads", loads_fields, .kinds = STATIC),
-    OBJECT("flow", flow_fields, .required = true, .kinds = FLOWS),
-    OBJECT("aerodynamics", aerodynamics_fields, .required = true, .kinds = FLOWS,
-           .finish = aerodynamics_finish),
+    OBJECT("flow", flow_fields, .required = true, .optional = STATIC, .kinds = FLOWS,
+           .omit = has_no_stream),
+    OBJECT("aerodynamics", aerodynamics_fields, .required = true, .optional = STATIC,
+           .kinds = FLOWS, .finish = aerodynamics_finish, .omit = has_no_stream),
     OBJECT("solver", solver_fields, .required = true, .kinds = MODAL),
     OBJECT("stability", stability_fields, .required = true, .kinds = STABILITY),
     OBJECT("output", output_fields, .kinds = SIMULATION | STATIC),

@@ -54,9 +54,10 @@ struct field {
     /* Where it applies, in the kinds it counts in. A required OBJECT that is absent is read as an
      * empty one, so that each missing member is named. */
     bool required;
-    bool nullable; /* OBJECT: `offset` is that of a bool, false when the value is null */
-    bool sized;    /* ARRAY, VECTOR: the count is known already and must be met */
-    bool or_empty; /* sized ARRAY: an empty list stands for zeros */
+    unsigned optional; /* kinds of document (bits) in which a required member may be absent */
+    bool nullable;     /* OBJECT: `offset` is that of a bool, false when the value is null */
+    bool sized;        /* ARRAY, VECTOR: the count is known already and must be met */
+    bool or_empty;     /* sized ARRAY: an empty list stands for zeros */
     bool owned; /* LIST: at `offset` is a pointer to the elements, malloc'ed, replaced when read */
     /* Whether the member may be given at all, judged by members before it; NULL = always. */
     bool (*applies)(const void *base);

@@ -159,9 +159,9 @@ static void write_reference(struct json_out *out, const char *key, const char *n
 
 static void write_identity(struct json_out *out, const struct result_view *v)
 {
-    const bool flows = case_kind_flows(v->def->kind);
+    const bool flows = case_def_flows(v->def), moves = case_kind_flows(v->def->kind);
     const struct polar_def *polar = flows ? v->def->aero.polar : NULL;
-    const struct network_def *network = flows ? v->def->aero.network : NULL;
+    const struct network_def *network = moves ? v->def->aero.network : NULL;
     json_key(out, "identity");
     json_object_begin(out);
     json_key_string(out, "content_hash", api_case_hash(v->c));

@@ -2,6 +2,10 @@
 #include "api/result_parts.h"
 #include "core/num.h"
 
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
 static void write_motion_members(struct json_out *out, const struct beam_motion *m)
 {
     json_key_number(out, "plunge_m", m->v);
@@ -59,6 +63,41 @@ static void write_first_failure(struct json_out *out, const struct result_view *
     json_object_end(out);
 }
 
+static void write_totals(struct json_out *out, const struct load_totals *t)
+{
+    json_key_number(out, "lift_n", t->lift);
+    json_key_number(out, "drag_n", t->drag);
+    json_key_number(out, "moment_n_m", t->moment);
+    json_key_number(out, "cl", t->cl);
+    json_key_number(out, "cd", t->cd);
+    json_key_number(out, "cm", t->cm);
+}
+
+/* Null without a stream. */
+static void write_aeroelastic(struct json_out *out, const struct result_view *v)
+{
+    const struct aeroelastic_result *a = &v->r->statics.air;
+    const double q = 0.5 * v->def->flow.density * num_sq(v->def->flow.speed);
+    json_key(out, "aeroelastic");
+    if (!case_def_flows(v->def)) {
+        json_null(out);
+        return;
+    }
+    json_object_begin(out);
+    json_key_string(out, "state", aeroelastic_state_name(a->state));
+    json_key_string(out, "reason", a->reason);
+    json_key_number(out, "divergence_speed_m_s", a->divergence_speed);
+    json_key_number(out, "pressure_ratio",
+                    isfinite(a->divergence_pressure) ? q / a->divergence_pressure : (double)NAN);
+    json_key_number(out, "followed_to", a->share);
+    json_key_integer(out, "iterations", a->iterations);
+    json_key_number(out, "residual", a->residual);
+    json_key_number(out, "lifting_line_residual", a->lifting_line_residual);
+    json_key_integer(out, "stations_outside_polar", a->outside_polar);
+    write_totals(out, &a->total);
+    json_object_end(out);
+}
+
 void result_static_members(struct json_out *out, const struct result_view *v)
 {
     json_key(out, "tip");
@@ -67,6 +106,7 @@ void result_static_members(struct json_out *out, const struct result_view *v)
     json_object_end(out);
     write_reactions(out, &v->r->statics);
     write_first_failure(out, v);
+    write_aeroelastic(out, v);
 }
 
 /* Column of the span samples by the name of its quantity. */
@@ -89,6 +129,44 @@ static void write_span(struct json_out *out, const struct static_result *s)
     json_object_begin(out);
     for (int k = 0; k < COLUMNS; k++) {
         json_key_numbers(out, key[k], STATIC_SAMPLES, column[k], 1, 1.0);
+    }
+    json_object_end(out);
+}
+
+/* Loads along the span, one entry a station; empty lists without an equilibrium in a stream. */
+static void write_stations(struct json_out *out, const struct aeroelastic_result *a)
+{
+    static const struct {
+        const char *key;
+        size_t member;
+        double unit;
+    } column[] = {
+#define COLUMN(key_, member_, unit_) {key_, offsetof(struct aeroelastic_station, member_), unit_}
+        COLUMN("z_m", z, 1.0),
+        COLUMN("chord_m", chord, 1.0),
+        COLUMN("alpha_deg", alpha, 180.0 / NUM_PI),
+        COLUMN("induced_deg", induced, 180.0 / NUM_PI),
+        COLUMN("twist_deg", twist, 180.0 / NUM_PI),
+        COLUMN("plunge_m", plunge, 1.0),
+        COLUMN("cl", cl, 1.0),
+        COLUMN("cd", cd, 1.0),
+        COLUMN("cm", cm, 1.0),
+        COLUMN("lift_n_m", lift, 1.0),
+        COLUMN("drag_n_m", drag, 1.0),
+        COLUMN("moment_n", moment, 1.0),
+#undef COLUMN
+    };
+    json_key(out, "air");
+    json_object_begin(out);
+    for (size_t k = 0; k < sizeof column / sizeof column[0]; k++) {
+        json_key(out, column[k].key);
+        json_array_begin(out);
+        for (int i = 0; i < a->n_station; i++) {
+            double value;
+            memcpy(&value, (const char *)&a->station[i] + column[k].member, sizeof value);
+            json_number(out, value * column[k].unit);
+        }
+        json_array_end(out);
     }
     json_object_end(out);
 }
@@ -152,6 +230,7 @@ void result_write_static(struct json_out *out, const struct result_view *v)
     json_object_begin(out);
     result_static_members(out, v);
     write_span(out, &v->r->statics);
+    write_stations(out, &v->r->statics.air);
     write_stress(out, v);
     json_object_end(out);
 }

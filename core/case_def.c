@@ -37,6 +37,11 @@ void case_def_defaults(struct case_def *def)
     section_def_defaults(SECTION_STRIP, &def->beam.section);
 }
 
+bool case_def_flows(const struct case_def *def)
+{
+    return case_kind_flows(def->kind) || (def->kind == CASE_STATIC && def->aero.polar != NULL);
+}
+
 int case_def_channel_columns(const struct case_def *def, enum channel channel)
 {
     if (channel == CHANNEL_MODAL_AMPLITUDE || channel == CHANNEL_MODAL_VELOCITY) {
@@ -98,48 +103,6 @@ static void check_beam(const struct case_def *def, struct failure_list *out)
         (void)snprintf(got, sizeof got, "%d", def->solver.modes);
         failure_set(failure_add(out), ST_INVALID, "/solver/modes", "too_many_modes", expected, got,
                     "%d elements have %d degrees of freedom", def->beam.elements, freedoms);
-    }
-}
-
-/* Stresses are those of walls. */
-static void check_has_walls(const struct case_def *def, int i, const char *pointer,
-                            struct failure_list *out)
-{
-    if (beam_def_given_at(&def->beam, def->output.stress[i])->shape.type == SECTION_PROPERTIES) {
-        failure_set(failure_add(out), ST_INVALID, pointer, "no_walls",
-                    "a place whose section is a strip, box or contour", NULL,
-                    "a section given by properties has no walls and no plies to be stressed");
-    }
-}
-
-/* Loads and stress positions lie on the beam, and there is something to carry. */
-static void check_static(const struct case_def *def, struct failure_list *out)
-{
-    const struct loads_def *l = &def->loads;
-    const double length = def->beam.length;
-    char a[64], b[64];
-    for (int i = 0; i < l->n_point; i++) {
-        (void)snprintf(a, sizeof a, "/loads/points/%d/z_m", i);
-        const struct range r = {a, l->point[i].z, 0.0, length, false, false};
-        range_check(1, &r, out);
-    }
-    for (int i = 0; i < l->n_line; i++) {
-        (void)snprintf(a, sizeof a, "/loads/lines/%d/from_m", i);
-        (void)snprintf(b, sizeof b, "/loads/lines/%d/to_m", i);
-        const struct range r[] = {{a, l->line[i].from, 0.0, length, false, false},
-                                  {b, l->line[i].to, l->line[i].from, length, true, false}};
-        RANGE_CHECK(r, out);
-    }
-    for (int i = 0; i < def->output.n_stress; i++) {
-        (void)snprintf(a, sizeof a, "/output/stress_at_m/%d", i);
-        const struct range r = {a, def->output.stress[i], 0.0, length, false, false};
-        range_check(1, &r, out);
-        check_has_walls(def, i, a, out);
-    }
-    const double *g = def->beam.gravity;
-    if (l->n_point + l->n_line == 0 && g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0) {
-        failure_set(failure_add(out), ST_INVALID, "/loads", "missing",
-                    "points, lines, or beam.gravity_m_s2", NULL, "nothing loads the beam");
     }
 }
 
@@ -208,6 +171,56 @@ static void check_drag(const struct case_def *def, struct failure_list *out)
                             needs[k].name, "the polar \"%s\" has no drag", polar->name);
             }
         }
+    }
+}
+
+/* Stresses are those of walls. */
+static void check_has_walls(const struct case_def *def, int i, const char *pointer,
+                            struct failure_list *out)
+{
+    if (beam_def_given_at(&def->beam, def->output.stress[i])->shape.type == SECTION_PROPERTIES) {
+        failure_set(failure_add(out), ST_INVALID, pointer, "no_walls",
+                    "a place whose section is a strip, box or contour", NULL,
+                    "a section given by properties has no walls and no plies to be stressed");
+    }
+}
+
+/* Loads and stress positions lie on the beam, and there is something to carry. */
+static void check_static(const struct case_def *def, struct failure_list *out)
+{
+    const struct loads_def *l = &def->loads;
+    const double length = def->beam.length;
+    char a[64], b[64];
+    for (int i = 0; i < l->n_point; i++) {
+        (void)snprintf(a, sizeof a, "/loads/points/%d/z_m", i);
+        const struct range r = {a, l->point[i].z, 0.0, length, false, false};
+        range_check(1, &r, out);
+    }
+    for (int i = 0; i < l->n_line; i++) {
+        (void)snprintf(a, sizeof a, "/loads/lines/%d/from_m", i);
+        (void)snprintf(b, sizeof b, "/loads/lines/%d/to_m", i);
+        const struct range r[] = {{a, l->line[i].from, 0.0, length, false, false},
+                                  {b, l->line[i].to, l->line[i].from, length, true, false}};
+        RANGE_CHECK(r, out);
+    }
+    for (int i = 0; i < def->output.n_stress; i++) {
+        (void)snprintf(a, sizeof a, "/output/stress_at_m/%d", i);
+        const struct range r = {a, def->output.stress[i], 0.0, length, false, false};
+        range_check(1, &r, out);
+        check_has_walls(def, i, a, out);
+    }
+    const double *g = def->beam.gravity;
+    if (case_def_flows(def)) {
+        check_flow(def, out);
+        check_aero(def, out);
+    } else if (def->flow.speed > 0.0) {
+        failure_set(failure_add(out), ST_INVALID, "/aerodynamics", "missing",
+                    "aerodynamics beside the flow, or neither", NULL,
+                    "a static case in a flow needs aerodynamics");
+    } else if (l->n_point + l->n_line == 0 && g[0] == 0.0 && g[1] == 0.0 && g[2] == 0.0) {
+        failure_set(failure_add(out), ST_INVALID, "/loads", "missing",
+                    "points, lines, beam.gravity_m_s2, or flow and aerodynamics", NULL,
+                    "nothing loads the beam");
     }
 }
 

@@ -139,6 +139,9 @@ static inline bool case_kind_flows(enum case_kind kind)
     return kind == CASE_SIMULATION || kind == CASE_STABILITY;
 }
 
+/* Does the case have a flow and aerodynamics? One of kind static may. */
+bool case_def_flows(const struct case_def *def);
+
 /* Fills every default. */
 void case_def_defaults(struct case_def *def);
 

@@ -61,6 +61,36 @@ static void gravity_resultant(const struct model *m, double force[3], double mom
     }
 }
 
+/* Resultant of the air's loads. */
+static void air_resultant(const struct model *m, const struct aeroelastic_result *air,
+                          double force[3], double moment[3])
+{
+    for (int i = 0; i < air->n_station; i++) {
+        const struct beam_load load = aeroelastic_load(m, &air->station[i]);
+        add_resultant(air->station[i].z, &load, m->station_length, force, moment);
+    }
+}
+
+/* A polar without drag: what is left is the induced part, which is not the drag. */
+static void forget_drag(struct aeroelastic_result *r)
+{
+    r->total.drag = r->total.cd = (double)NAN;
+    for (int i = 0; i < r->n_station; i++) {
+        r->station[i].cd = r->station[i].drag = (double)NAN;
+    }
+}
+
+/* Deflection x under the loads f, and in a stream those of the air. */
+static enum status deflect(const struct model *m, const double *f, double *x,
+                           struct static_result *r)
+{
+    if (case_def_flows(&m->def)) {
+        return aeroelastic_solve(m, f, x, &r->air);
+    }
+    const enum status st = static_solve(&m->beam, f, x);
+    return st == ST_OK && !num_all_finite(m->beam.n_dof, x) ? ST_NOT_FINITE : st;
+}
+
 static enum status recover_stress(const struct model *m, const double *x, double z,
                                   struct stress_result *out)
 {
@@ -112,12 +142,14 @@ enum status statics_run(const struct model *m, struct static_result *out)
     assemble_loads(m, f, force, moment);
     add_gravity(m, f);
     gravity_resultant(m, force, moment);
-    enum status st = static_solve(b, f, x);
-    if (st == ST_OK && !num_all_finite(b->n_dof, x)) {
-        st = ST_NOT_FINITE;
-    }
+    enum status st = deflect(m, f, x, &r);
     if (st != ST_OK) {
         goto out;
+    }
+    const bool at_rest = num_all_finite(b->n_dof, x); /* NaN where there is no equilibrium */
+    air_resultant(m, &r.air, force, moment);
+    if (case_def_flows(&m->def) && !polar_def_has_drag(m->def.aero.polar)) {
+        forget_drag(&r.air);
     }
     r.tip = model_motion_at(m, x, b->length);
     for (int i = 0; i < STATIC_SAMPLES; i++) {
@@ -125,10 +157,10 @@ enum status statics_run(const struct model *m, struct static_result *out)
         r.span[i] = (struct static_sample){.z = z, .motion = model_motion_at(m, x, z)};
     }
     for (int d = 0; d < 3; d++) {
-        r.reaction_force[d] = -force[d];
-        r.reaction_moment[d] = -moment[d];
+        r.reaction_force[d] = at_rest ? -force[d] : (double)NAN;
+        r.reaction_moment[d] = at_rest ? -moment[d] : (double)NAN;
     }
-    for (int i = 0; i < m->def.output.n_stress && st == ST_OK; i++) {
+    for (int i = 0; i < m->def.output.n_stress && at_rest && st == ST_OK; i++) {
         st = recover_stress(m, x, m->def.output.stress[i], &r.stress[i]);
         r.n_stress++;
     }
@@ -148,5 +180,6 @@ void statics_done(struct static_result *r)
     for (int i = 0; i < r->n_stress; i++) {
         free(r->stress[i].ply);
     }
+    aeroelastic_done(&r->air);
     *r = (struct static_result){.n_stress = 0};
 }

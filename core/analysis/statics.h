@@ -1,10 +1,10 @@
 /* core/analysis/statics.h
- * Kind `static`: deflection of the beam under its loads, reactions, stresses and first-ply failure.
- */
+ * Kind `static`: deflection of the beam under its loads and, in a stream, at aeroelastic
+ * equilibrium; reactions, stresses and first-ply failure. */
 #ifndef AEROM_CORE_ANALYSIS_STATICS_H
 #define AEROM_CORE_ANALYSIS_STATICS_H
 
-#include "core/coupling/model.h"
+#include "core/analysis/aeroelastic.h"
 #include "core/structure/static.h"
 
 enum { STATIC_SAMPLES = 33 }; /* equidistant points of the span, root and tip included */
@@ -31,6 +31,7 @@ struct static_result {
     struct stress_result stress[LIMIT_STRESS_POSITIONS];
     double reserve_min; /* factor on all loads until first-ply failure, NaN if not known */
     int critical_position, critical_ply; /* where: indices, -1 if not known */
+    struct aeroelastic_result air; /* with a flow; without equilibrium all above is NaN or empty */
 };
 
 /* Solves the static case of a model (CASE_STATIC). *out owns memory: statics_done, also on a zeroed

@@ -30,14 +30,14 @@ static void kinematics(const struct model *m, struct workspace *w)
 {
     const int n = w->n_station;
     const double speed = m->def.flow.speed;
-    fill(n, 0.0, w->plunge);
+    memcpy(w->plunge, w->imposed_plunge, (size_t)n * sizeof *w->plunge);
+    memcpy(w->twist, w->imposed_twist, (size_t)n * sizeof *w->twist);
     fill(n, 0.0, w->plunge_rate);
-    fill(n, m->def.flow.incidence, w->alpha_geometric);
     to_stations(m, m->station_v, w->q, 1.0, w->plunge);
     to_stations(m, m->station_v, w->qd, 1.0 / speed, w->plunge_rate);
-    to_stations(m, m->station_theta, w->q, 1.0, w->alpha_geometric);
+    to_stations(m, m->station_theta, w->q, 1.0, w->twist);
     for (int i = 0; i < n; i++) {
-        w->alpha_geometric[i] -= w->plunge_rate[i];
+        w->alpha_geometric[i] = m->def.flow.incidence + w->twist[i] - w->plunge_rate[i];
         w->plunge[i] /= m->chord[i];
     }
 }

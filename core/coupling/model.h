@@ -17,9 +17,9 @@ struct model {
     struct centres centres;
     double thickness;   /* of the root section, overall [m]; NaN with properties */
     struct beam beam;   /* not for CASE_SECTION */
-    struct modes modes; /* all but CASE_STATIC and CASE_SECTION */
+    struct modes modes; /* not for CASE_SECTION, and for CASE_STATIC only with a flow */
 
-    /* The rest only where case_kind_flows. */
+    /* The rest only where case_def_flows. */
     struct polar *polar;
     struct network *network;          /* NULL without one */
     struct lifting_line lifting_line; /* n = 0 without one */

@@ -105,14 +105,8 @@ static int put_channel(const struct model *m, const struct workspace *w, enum ch
         }
         return put_vector(r, row, column, ns, plunge, 1.0);
     }
-    case CHANNEL_STATION_TWIST: {
-        /* theta = alpha_g - alpha_0 + v_dot/V */
-        double twist[LIMIT_ELEMENTS];
-        for (int i = 0; i < ns; i++) {
-            twist[i] = w->alpha_geometric[i] - m->def.flow.incidence + w->plunge_rate[i];
-        }
-        return put_vector(r, row, column, ns, twist, 1.0);
-    }
+    case CHANNEL_STATION_TWIST:
+        return put_vector(r, row, column, ns, w->twist, 1.0);
     case CHANNEL_STATION_ALPHA:
         return put_vector(r, row, column, ns, w->alpha, 1.0);
     case CHANNEL_STATION_INDUCED:

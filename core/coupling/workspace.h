@@ -21,6 +21,9 @@ struct workspace {
     /* stations (n_station each) */
     double *plunge;            /* v/c */
     double *plunge_rate;       /* v_dot/V */
+    double *twist;             /* theta [rad] */
+    double *imposed_twist;     /* part of the twist that is not of the modes, else zero [rad] */
+    double *imposed_plunge;    /* likewise of v [m] */
     double *alpha_geometric;   /* alpha_0 + theta - v_dot/V [rad] */
     double *pitch_rate;        /* theta_dot c/V, with a wake that lags */
     double *alpha_34;          /* at three quarters of the chord, with a wake that lags [rad] */

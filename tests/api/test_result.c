@@ -372,6 +372,39 @@ static void test_static(void **state)
     json_free(document(f, "section", r));
 }
 
+#define WING(speed_)                                                                               \
+    "{\"schema_version\":1,\"kind\":\"static\",\"beam\":{\"length_m\":16,\"section\":{\"type\":"   \
+    "\"properties\",\"chord_m\":1,\"ei_flap_n_m2\":2e4,\"gj_n_m2\":1e4,\"mass_kg_m\":0.75,"        \
+    "\"torsion_inertia_kg_m\":0.1}},\"flow\":{\"speed_m_s\":" speed_                               \
+    ",\"density_kg_m3\":0.0889,\"incidence_deg\":1},\"aerodynamics\":{\"polar\":"                  \
+    "\"flat-plate-linear\",\"lifting_line\":null}}"
+
+/* Below divergence the loads of the air, beyond it the speed; no walls, so some numbers are null.
+ */
+static void test_static_in_a_stream(void **state)
+{
+    struct fixture *f = *state;
+    const struct sim_result *r = run_case(f, WING("25"));
+    cJSON *s = document(f, "summary", r);
+    assert_near_rel(number(s, "aeroelastic/divergence_speed_m_s"), 37.1539, 1e-5);
+    assert_near_rel(number(s, "aeroelastic/lift_n"), r->statics.air.total.lift, 1e-15);
+    const cJSON *section = cJSON_GetObjectItemCaseSensitive(s, "section");
+    assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(section, "thickness_m")));
+    json_free(s);
+    s = document(f, "static", r);
+    assert_near_rel(number(s, "air/lift_n_m/63"), r->statics.air.station[63].lift, 1e-15);
+    assert_near_abs(number(s, "air/alpha_deg/0"), 1.0, 0.05); /* at the root the rigid angle */
+    json_free(s);
+    json_free(document(f, "section", r));
+    r = run_case(f, WING("40"));
+    s = document(f, "summary", r);
+    const cJSON *air = cJSON_GetObjectItemCaseSensitive(s, "aeroelastic");
+    assert_string_equal(string(air, "state"), "divergence");
+    assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(air, "lift_n")));
+    json_free(s);
+    json_free(document(f, "static", r));
+}
+
 /* A number that is not finite is null, never text that is no JSON. */
 static void test_not_finite(void **state)
 {
@@ -401,6 +434,7 @@ int main(void)
         TEST(test_no_instability),
         TEST(test_static_closed_form),
         TEST(test_not_finite),
+        TEST(test_static_in_a_stream),
     };
     sim_process_init();
     return cmocka_run_group_tests(tests, NULL, NULL);

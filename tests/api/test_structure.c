@@ -155,6 +155,25 @@ static void test_loads(void **state)
     api_case_destroy(c);
 }
 
+#define STREAM(rest_)                                                                              \
+    ",\"flow\":{\"speed_m_s\":20},\"aerodynamics\":{\"polar\":\"flat-plate-linear\"" rest_ "}"
+
+/* A static case may have a stream; what only moves has no part in it. */
+static void test_static_in_a_stream(void **state)
+{
+    struct api_case *c =
+        parse_good(*state, STATIC_CASE("", STREAM(",\"dynamic\":{\"type\":\"attached\"}")));
+    assert_true(case_def_flows(api_case_def(c)));
+    assert_near_abs(api_case_def(c)->flow.speed, 20.0, 0.0);
+    assert_non_null(strstr(api_case_canonical(c), "\"flow\":{\"speed_m_s\":20,"));
+    assert_null(strstr(api_case_canonical(c), "\"dynamic\""));
+    api_case_destroy(c);
+    c = parse_good(*state, STATIC_CASE("", ",\"loads\":{\"tip\":{\"force_y_n\":1}}"));
+    assert_false(case_def_flows(api_case_def(c)));
+    assert_null(strstr(api_case_canonical(c), "\"flow\""));
+    api_case_destroy(c);
+}
+
 /* Canonical text parsed again gives the same text and the same identity. */
 static void test_canonical_is_stable(void **state)
 {
@@ -167,6 +186,7 @@ static void test_canonical_is_stable(void **state)
                                 "{\"from\":1,\"to\":2,\"layup\":\"skin\",\"via\":" POINT(
                                     0.05, 0.12) "}," WALL(2, 3) "," WALL(3, 0))),
         MODES_CASE("\"stations\":[" STATION(0, BOX) "," STATION(1, BOX) "]"),
+        STATIC_CASE("", STREAM("")),
         STATIC_CASE("", ",\"loads\":{\"lines\":[{\"from_m\":0.1,\"force_y_n_m\":3}],"
                         "\"tip\":{\"force_x_n\":5}}"),
         "{\"schema_version\":1,\"kind\":\"section\",\"materials\":[" STEEL
@@ -329,6 +349,11 @@ static const struct bad bad_cases[] = {
      "required"},
     /* loads */
     {STATIC_CASE("", ""), "/loads", "missing"},
+    {STATIC_CASE("", ",\"flow\":{\"speed_m_s\":20}"), "/aerodynamics", "missing"},
+    {STATIC_CASE("", ",\"flow\":{},\"aerodynamics\":{\"polar\":\"flat-plate-linear\"}"),
+     "/flow/speed_m_s", "required"},
+    {STATIC_CASE("", ",\"aerodynamics\":{\"polar\":\"flat-plate-linear\"}"), "/flow/speed_m_s",
+     "out_of_range"},
     {STATIC_CASE("", ",\"loads\":{\"points\":[{\"z_m\":1.5,\"force_y_n\":1}]}"),
      "/loads/points/0/z_m", "out_of_range"},
     {STATIC_CASE("", ",\"loads\":{\"points\":[{\"force_y_n\":1}]}"), "/loads/points/0/z_m",
@@ -364,6 +389,7 @@ int main(void)
         cmocka_unit_test(test_contour),
         cmocka_unit_test(test_stations),
         cmocka_unit_test(test_loads),
+        cmocka_unit_test(test_static_in_a_stream),
         cmocka_unit_test(test_canonical_is_stable),
         cmocka_unit_test(test_identity_sees_every_layup),
         cmocka_unit_test(test_bad_cases),
