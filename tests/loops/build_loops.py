@@ -108,12 +108,13 @@ def misfit(model, reference, key):
 
 
 def own_slope(folder):
-    """The shipped polar whose potential flow has the slope and centre of its own linear range."""
+    """The shipped polar whose potential flow has its own slope, the largest of c_l/alpha in the linear
+    range, and its own centre at small angles."""
     polar = json.loads(POLAR.read_text(encoding="utf-8"))
     row = min(range(len(polar["plunge_c"])), key=lambda i: abs(polar["plunge_c"][i]))
-    best = max((cl / math.radians(a), cm / cl) for a, cl, cm in
-               zip(polar["alpha_deg"], polar["cl"][row], polar["cm"][row])
-               if a != 0 and polar["linear_from_deg"] <= a <= polar["linear_to_deg"])
+    points = [(a, cl, cm) for a, cl, cm in zip(polar["alpha_deg"], polar["cl"][row], polar["cm"][row])
+              if 0 < a <= polar["linear_to_deg"]]
+    best = (max(cl / math.radians(a) for a, cl, _ in points), points[0][2] / points[0][1])
     polar["dynamic_stall"] = {"lift_slope_per_rad": best[0], "lift_centre_c": best[1]}
     path = Path(folder) / "own.json"
     path.write_text(json.dumps(polar), encoding="utf-8")
@@ -264,6 +265,26 @@ def motion_text(item):
     return ", ".join(parts)
 
 
+def check_table():
+    """Other meshes and steps of the same motion: what the flow computation does not know itself."""
+    base = {row["name"]: row for row in sine_rows()}
+    lines = []
+    for row in index_rows("check_sine"):
+        name, change = row["name"].rsplit("_", 1)
+        if name not in base:
+            continue
+        pitch, plunge = terms(row)
+        frequency = (pitch or plunge)[1]
+        reference, other = (average_cycle(r, frequency)[0] for r in (base[name], row))
+        lines.append("| `%s` | %s | %.1f %%, %.1f %% | %s, %s |" % (
+            name, change, misfit(other, reference, "cl"), misfit(other, reference, "cm"),
+            signed(work(reference, pitch, plunge)), signed(work(other, pitch, plunge))))
+    if lines:
+        yield "| record | changed | difference of c_l, c_m | work before, after |"
+        yield "|---|---|---|---|"
+        yield from lines
+
+
 def broadband_table(items):
     yield "| record | mean power | " + " | ".join("%s: c_l, c_m, power" % name
                                                    for _, _, name, _ in MODELS) + " |"
@@ -326,6 +347,12 @@ def page(items, broadband, own):
         before, after = file.read().split("<!-- numbers -->\n")
     yield before.rstrip("\n")
     yield ""
+    checks = list(check_table())
+    if checks:
+        yield "Records computed again on another mesh or with another step:"
+        yield ""
+        yield from checks
+        yield ""
     yield "%d sines. The slope and centre of the last column are the polar's own: %.2f per rad and %.3f c." % (
         len(items), own[0], own[1])
     yield ""
