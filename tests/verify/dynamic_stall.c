@@ -160,7 +160,7 @@ static struct response response_of(const struct linear *l, double omega)
 
 static void linearisation(struct check_list *list, const struct library *lib)
 {
-    static const double mean[] = {1.0, 5.3, 7.1};
+    static const double mean[] = {1.3, 5.3, 7.1};
     const struct polar_def *polar = library_polar(lib, shipped[0]);
     for (size_t i = 0; i < sizeof mean / sizeof mean[0]; i++) {
         const struct linear l = linearised(polar, num_rad(mean[i]));
