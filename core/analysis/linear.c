@@ -63,11 +63,13 @@ void linear_done(struct linear *l)
 
 static const double step = 1e-6; /* of central differences */
 
-static struct linear_gain gain(const struct stall_value *up, const struct stall_value *down)
+/* Difference quotient over `width`. */
+static struct linear_gain gain(const struct stall_value *up, const struct stall_value *down,
+                               double width)
 {
-    return (struct linear_gain){.cl = (up->cl - down->cl) / (2.0 * step),
-                                .cd = (up->cd - down->cd) / (2.0 * step),
-                                .cm = (up->cm - down->cm) / (2.0 * step)};
+    return (struct linear_gain){.cl = (up->cl - down->cl) / width,
+                                .cd = (up->cd - down->cd) / width,
+                                .cm = (up->cm - down->cm) / width};
 }
 
 static struct stall_value steady_at(const struct model *m, double alpha, double plunge)
@@ -102,12 +104,14 @@ static void find_stall_slopes(const struct model *m, const struct workspace *w, 
         const double keep = x[k];
         x[k] = keep + step;
         const struct stall_value up = moving_at(m, i, x, high);
-        x[k] = keep - step;
+        /* Flow that has left at the leading edge cannot leave before it. */
+        x[k] = k - 2 == STALL_SEPARATION ? fmax(keep - step, 0.0) : keep - step;
+        const double width = keep + step - x[k];
         const struct stall_value down = moving_at(m, i, x, low);
         x[k] = keep;
-        *(k < 2 ? target[k] : &out->stall[k - 2]) = gain(&up, &down);
+        *(k < 2 ? target[k] : &out->stall[k - 2]) = gain(&up, &down, width);
         for (int r = 0; r < STALL_STATES; r++) {
-            out->stall_rate[r][k] = (high[r] - low[r]) / (2.0 * step);
+            out->stall_rate[r][k] = (high[r] - low[r]) / width;
         }
     }
 }
@@ -121,8 +125,8 @@ static void find_slopes(const struct model *m, const struct workspace *w, struct
         const double a = w->alpha[i], h = w->plunge[i];
         const struct stall_value up = steady_at(m, a + step, h), down = steady_at(m, a - step, h);
         const struct stall_value high = steady_at(m, a, h + step), low = steady_at(m, a, h - step);
-        s->steady_alpha = s->alpha = gain(&up, &down);
-        s->steady_plunge = s->plunge = gain(&high, &low);
+        s->steady_alpha = s->alpha = gain(&up, &down, 2.0 * step);
+        s->steady_plunge = s->plunge = gain(&high, &low, 2.0 * step);
         s->cl = steady_at(m, a, h).cl;
         if (l->n_stall > 0) {
             find_stall_slopes(m, w, i, s);
@@ -395,5 +399,8 @@ enum status linear_fill(const struct model *m, struct workspace *w, struct linea
     modal_forces(m, w, l->n_state, false, l);
     assemble(m, l);
     assemble_stall(l);
+    if (!num_all_finite(l->n_state * l->n_state, l->a)) {
+        return ST_NOT_FINITE;
+    }
     return ST_OK;
 }

@@ -55,8 +55,8 @@ MUST_CHECK enum status linear_init(const struct model *m, struct linear *out);
 void linear_done(struct linear *l);
 
 /* Fills a and static_stiffness at the equilibrium in w (q; q' is taken as zero) and the speed of
- * the model. ST_SINGULAR when the lifting line has no unique answer there. The model has no
- * network: its memory is no state. */
+ * the model. ST_SINGULAR when the lifting line has no unique answer there, ST_NOT_FINITE when
+ * a derivative is none. The model has no network: its memory is no state. */
 MUST_CHECK enum status linear_fill(const struct model *m, struct workspace *w, struct linear *l);
 
 #endif
