@@ -5,11 +5,10 @@
 #ifndef AEROM_CORE_COUPLING_MARCH_H
 #define AEROM_CORE_COUPLING_MARCH_H
 
+#include "core/control.h"
 #include "core/coupling/exponential.h"
 #include "core/coupling/record.h"
 #include "core/coupling/rk4.h"
-
-#include <stdatomic.h>
 
 /* Why the marching ended. */
 enum stop_reason {
@@ -18,12 +17,6 @@ enum stop_reason {
     STOP_OUTSIDE_POLAR,
     STOP_NOT_FINITE,
     STOP_REASON_COUNT
-};
-
-/* How the caller watches and stops a run. Both pointers may be NULL. */
-struct sim_control {
-    const atomic_bool *cancel; /* set to true by another thread to stop */
-    _Atomic double *progress;  /* receives 0..1 */
 };
 
 struct march {

@@ -1,0 +1,104 @@
+#include "core/network/assess.h"
+
+#include "core/num.h"
+
+#include <stdlib.h>
+
+double assess_energy_error(const struct assess_work *model, const struct assess_work *record)
+{
+    const double work = record->pitch + record->plunge;
+    return (model->pitch + model->plunge - work) / work;
+}
+
+struct window {
+    int from, n;   /* samples of the errors */
+    int work_from; /* of the work, to the last one */
+    double periods;
+};
+
+static struct window window_of(const struct flow_record *r)
+{
+    const int first = flow_record_first(r);
+    struct window w = {.from = first, .n = r->n - first, .work_from = first, .periods = 1.0};
+    if (r->period > 0.0) {
+        const double samples = r->period / flow_record_step(r);
+        const double whole = floor((w.n - 1) / samples + 1e-6);
+        if (whole >= 1.0) {
+            w.periods = whole;
+            w.work_from = r->n - 1 - (int)lround(whole * samples);
+            w.work_from = w.work_from < 0 ? 0 : w.work_from;
+        }
+    }
+    return w;
+}
+
+/* Adds sample i of the trapezoidal rule. */
+static void add_work(const struct flow_record *r, const struct window *w, int i, double cl,
+                     double cm, struct assess_work *out)
+{
+    if (i < w->work_from) {
+        return;
+    }
+    const double end = i == w->work_from || i == r->n - 1 ? 0.5 : 1.0;
+    const double dt = end * flow_record_step(r) / w->periods;
+    out->pitch += cm * r->value[num_at(i, FLOW_THETA_RATE, r->n)] * dt;
+    out->plunge += cl * r->value[num_at(i, FLOW_W_RATE, r->n)] * dt;
+}
+
+static double range_of(const double *x, int n)
+{
+    double least = x[0], most = x[0];
+    for (int i = 1; i < n; i++) {
+        least = fmin(least, x[i]);
+        most = fmax(most, x[i]);
+    }
+    return most - least;
+}
+
+static void compare(const struct flow_record *r, const struct window *w, const double *x,
+                    const double *steady, const struct network *net, struct assessment *a)
+{
+    int outside = 0;
+    for (int i = w->from; i < r->n; i++) {
+        double y[NET_OUT_COUNT];
+        outside += network_eval(net, 1, x + num_at(0, i, NET_IN_COUNT), y);
+        const double cl = r->value[num_at(i, FLOW_CL, r->n)];
+        const double cm = r->value[num_at(i, FLOW_CM, r->n)];
+        const double *s = steady + num_at(0, i, NET_OUT_COUNT);
+        const double cl_net = s[NET_OUT_CL] + y[NET_OUT_CL];
+        const double cm_net = s[NET_OUT_CM] + y[NET_OUT_CM];
+        a->network_cl += num_sq(cl_net - cl);
+        a->network_cm += num_sq(cm_net - cm);
+        a->steady_cl += num_sq(s[NET_OUT_CL] - cl);
+        a->steady_cm += num_sq(s[NET_OUT_CM] - cm);
+        add_work(r, w, i, cl, cm, &a->record);
+        add_work(r, w, i, cl_net, cm_net, &a->network);
+        add_work(r, w, i, s[NET_OUT_CL], s[NET_OUT_CM], &a->steady);
+    }
+    double *const square[] = {&a->network_cl, &a->network_cm, &a->steady_cl, &a->steady_cm};
+    for (size_t k = 0; k < sizeof square / sizeof square[0]; k++) {
+        *square[k] = sqrt(*square[k] / w->n);
+    }
+    a->outside_hull = (double)outside / w->n;
+}
+
+enum status assess_record(const struct flow_record *r, double window, const struct polar *polar,
+                          const struct network *net, struct assessment *out)
+{
+    const struct window w = window_of(r);
+    if (w.n < 1) {
+        return ST_INVALID;
+    }
+    double *x = malloc((size_t)r->n * (NET_IN_COUNT + NET_OUT_COUNT) * sizeof *x);
+    if (x == NULL) {
+        return ST_NO_MEMORY;
+    }
+    double *steady = x + (ptrdiff_t)r->n * NET_IN_COUNT;
+    flow_record_inputs(r, window, x);
+    flow_record_steady(r, polar, steady);
+    *out = (struct assessment){.range_cl = range_of(r->value + num_at(w.from, FLOW_CL, r->n), w.n),
+                               .range_cm = range_of(r->value + num_at(w.from, FLOW_CM, r->n), w.n)};
+    compare(r, &w, x, steady, net, out);
+    free(x);
+    return ST_OK;
+}

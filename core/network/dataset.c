@@ -1,0 +1,230 @@
+#include "core/network/dataset.h"
+
+#include "core/num.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+void dataset_def_defaults(struct dataset_def *def)
+{
+    *def = (struct dataset_def){.window = 12.5, .samples_max = 500, .held_share = 0.1, .seed = 1};
+}
+
+double dataset_uniform(uint64_t *state)
+{
+    uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
+    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+/* Every how many samples one is taken. */
+static int stride(const struct dataset_def *def, const struct flow_record *r)
+{
+    const int n = r->n - flow_record_first(r);
+    return (n + def->samples_max - 1) / def->samples_max;
+}
+
+static int taken(const struct dataset_def *def, const struct flow_record *r)
+{
+    const int n = r->n - flow_record_first(r), step = stride(def, r);
+    return n > 0 ? (n + step - 1) / step : 0;
+}
+
+/* The draw without replacement: Fisher and Yates over those that move. */
+static enum status draw(const struct dataset_def *def, int n_record,
+                        const struct flow_record *record, struct failure_list *problems,
+                        struct dataset *d)
+{
+    int moving = 0;
+    int *index = malloc((size_t)n_record * sizeof *index);
+    d->is_held = calloc((size_t)n_record, sizeof *d->is_held);
+    if (index == NULL || d->is_held == NULL) {
+        free(index);
+        return ST_NO_MEMORY;
+    }
+    for (int i = 0; i < n_record; i++) {
+        if (flow_record_moves(&record[i])) {
+            index[moving++] = i;
+        }
+    }
+    if (moving < 2) {
+        failure_set(failure_add(problems), ST_INVALID, "", "too_few",
+                    "two records or more in which the section moves", moving == 1 ? "1" : "0",
+                    "one is trained and another one held out: there are too few records");
+        free(index);
+        return ST_INVALID;
+    }
+    uint64_t seed = def->seed;
+    d->n_held = (int)num_clamp(nearbyint(def->held_share * moving), 1.0, moving - 1.0);
+    for (int k = 0; k < d->n_held; k++) {
+        const int pick = k + (int)(dataset_uniform(&seed) * (moving - k));
+        const int keep = index[k];
+        index[k] = index[pick];
+        index[pick] = keep;
+        d->is_held[index[k]] = true;
+    }
+    free(index);
+    return ST_OK;
+}
+
+static enum status room(int n, struct sample_set *s)
+{
+    s->x = malloc((size_t)n * NET_IN_COUNT * sizeof *s->x);
+    s->y = malloc((size_t)n * NET_OUT_COUNT * sizeof *s->y);
+    return s->x != NULL && s->y != NULL ? ST_OK : ST_NO_MEMORY;
+}
+
+/* A sample and its mirror image. */
+static void put(const double *x, const double *y, struct sample_set *s)
+{
+    static const double mirrored[NET_OUT_COUNT] = {
+        [NET_OUT_CL] = -1.0, [NET_OUT_CM] = -1.0, [NET_OUT_CD] = 1.0};
+    for (int side = 0; side < 2; side++) {
+        double *in = s->x + num_at(0, s->n, NET_IN_COUNT);
+        double *increment = s->y + num_at(0, s->n, NET_OUT_COUNT);
+        for (int i = 0; i < NET_IN_COUNT; i++) {
+            in[i] = side == 0 ? x[i] : -x[i];
+        }
+        for (int o = 0; o < NET_OUT_COUNT; o++) {
+            increment[o] = side == 0 ? y[o] : mirrored[o] * y[o];
+        }
+        s->n++;
+    }
+}
+
+static enum status add_record(const struct dataset_def *def, const struct polar *polar,
+                              const struct flow_record *r, bool held, struct dataset *d)
+{
+    static const enum flow_row row[NET_OUT_COUNT] = {
+        [NET_OUT_CL] = FLOW_CL, [NET_OUT_CM] = FLOW_CM, [NET_OUT_CD] = FLOW_CD};
+    double *x = malloc((size_t)r->n * (NET_IN_COUNT + NET_OUT_COUNT) * sizeof *x);
+    if (x == NULL) {
+        return ST_NO_MEMORY;
+    }
+    double *y = x + (ptrdiff_t)r->n * NET_IN_COUNT;
+    flow_record_inputs(r, def->window, x);
+    flow_record_steady(r, polar, y);
+    for (int i = flow_record_first(r); i < r->n; i += stride(def, r)) {
+        double *steady = y + num_at(0, i, NET_OUT_COUNT);
+        const double *in = x + num_at(0, i, NET_IN_COUNT);
+        const double alpha = in[NET_IN_MEAN_ALPHA] + in[NET_IN_DELTA_ALPHA];
+        d->outside_polar += polar_at(polar, alpha, r->value[num_at(i, FLOW_W, r->n)]).outside;
+        for (int o = 0; o < NET_OUT_COUNT; o++) {
+            steady[o] = r->value[num_at(i, row[o], r->n)] - steady[o];
+        }
+        put(in, steady, held ? &d->held : &d->trained);
+    }
+    free(x);
+    return ST_OK;
+}
+
+static enum status add_records(const struct dataset_def *def, int n_record,
+                               const struct flow_record *record, struct dataset *d)
+{
+    struct polar *polar = NULL;
+    enum status st = polar_create(def->polar, &polar);
+    for (int i = 0; i < n_record && st == ST_OK; i++) {
+        st = add_record(def, polar, &record[i], d->is_held[i], d);
+    }
+    polar_destroy(polar);
+    return st;
+}
+
+enum status dataset_build(const struct dataset_def *def, int n_record,
+                          const struct flow_record *record, struct failure_list *problems,
+                          struct dataset *out)
+{
+    assert(n_record <= FLOW_RECORDS_MAX);
+    struct dataset d = {.n_record = n_record};
+    int count[2] = {0, 0};
+    enum status st = n_record > 0 ? ST_OK : ST_INVALID;
+    for (int i = 0; i < n_record; i++) {
+        if (taken(def, &record[i]) == 0) {
+            failure_set(failure_add(problems), ST_INVALID, record[i].name, "too_few",
+                        "samples behind the start", NULL, "the record ends before it counts");
+            st = ST_INVALID;
+        }
+    }
+    if (n_record == 0) {
+        failure_set(failure_add(problems), ST_INVALID, "", "too_few", "records", "0",
+                    "there is no record");
+    }
+    st = st == ST_OK ? draw(def, n_record, record, problems, &d) : st;
+    for (int i = 0; i < n_record && st == ST_OK; i++) {
+        count[d.is_held[i]] += 2 * taken(def, &record[i]);
+    }
+    st = st == ST_OK ? room(count[0], &d.trained) : st;
+    st = st == ST_OK ? room(count[1], &d.held) : st;
+    st = st == ST_OK ? add_records(def, n_record, record, &d) : st;
+    if (st == ST_OK) {
+        *out = d;
+    } else {
+        dataset_done(&d);
+    }
+    return st;
+}
+
+void dataset_done(struct dataset *d)
+{
+    free(d->trained.x);
+    free(d->trained.y);
+    free(d->held.x);
+    free(d->held.y);
+    free(d->is_held);
+    *d = (struct dataset){0};
+}
+
+/* Mean, deviation and range of row i of x (rows x n). */
+struct spread {
+    double mean, deviation, least, most;
+};
+
+static struct spread spread_of(const double *x, int rows, int n, int i)
+{
+    struct spread s = {.least = x[i], .most = x[i]};
+    for (int k = 0; k < n; k++) {
+        const double v = x[num_at(i, k, rows)];
+        s.mean += v;
+        s.least = fmin(s.least, v);
+        s.most = fmax(s.most, v);
+    }
+    s.mean /= n;
+    for (int k = 0; k < n; k++) {
+        s.deviation += num_sq(x[num_at(i, k, rows)] - s.mean);
+    }
+    s.deviation = sqrt(s.deviation / n);
+    return s;
+}
+
+/* Varies by more than rounding does? */
+static double scale_of(const struct spread *s, const char *name, struct failure_list *problems)
+{
+    const double floor = 1e-9;
+    if (s->deviation > floor) {
+        return s->deviation;
+    }
+    failure_set(failure_add(problems), ST_INVALID, name, "constant", "values that vary", NULL,
+                "%s is the same in all samples: nothing can be learnt from it", name);
+    return 1.0;
+}
+
+void dataset_scaling(const struct sample_set *s, struct network_def *net,
+                     struct failure_list *problems)
+{
+    static const char *const output[NET_OUT_COUNT] = {
+        [NET_OUT_CL] = "cl", [NET_OUT_CM] = "cm", [NET_OUT_CD] = "cd"};
+    for (int i = 0; i < net->n_in; i++) {
+        const struct spread v = spread_of(s->x, NET_IN_COUNT, s->n, (int)net->input[i]);
+        net->in_offset[i] = v.mean;
+        net->in_scale[i] = scale_of(&v, network_input_name(net->input[i]), problems);
+        net->hull_min[i] = v.least;
+        net->hull_max[i] = v.most;
+    }
+    for (int o = 0; o < net->n_out; o++) {
+        const struct spread v = spread_of(s->y, NET_OUT_COUNT, s->n, (int)net->output[o]);
+        net->out_offset[o] = v.mean;
+        net->out_scale[o] = scale_of(&v, output[net->output[o]], problems);
+    }
+}

@@ -1,0 +1,189 @@
+#include "core/network/train.h"
+
+#include "core/network/train_adam.h"
+#include "core/network/train_lm.h"
+#include "core/num.h"
+
+#include <assert.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A smaller error counts as better from so much on, relative. */
+static const double better = 1e-6;
+
+static const char *const optimiser_name[TRAIN_OPTIMISERS] = {
+    [TRAIN_LM] = "lm", [TRAIN_ADAM] = "adam"};
+
+const char *train_optimiser_name(enum train_optimiser o)
+{
+    assert((unsigned)o < TRAIN_OPTIMISERS);
+    return optimiser_name[o];
+}
+
+enum train_optimiser train_optimiser_of(const char *name)
+{
+    int o = 0;
+    while (o < TRAIN_OPTIMISERS && strcmp(optimiser_name[o], name) != 0) {
+        o++;
+    }
+    return (enum train_optimiser)o;
+}
+
+void train_def_defaults(enum train_optimiser optimiser, struct train_def *def)
+{
+    *def = (struct train_def){.optimiser = optimiser,
+                              .epochs = optimiser == TRAIN_LM ? 300 : 2000,
+                              .patience = optimiser == TRAIN_LM ? 30 : 200,
+                              .decay = 1e-4,
+                              .rate = 1e-3,
+                              .batch = 64,
+                              .seed = 1};
+}
+
+static void refuse(struct failure_list *out, const char *pointer, const char *expected, double got)
+{
+    char text[32];
+    (void)snprintf(text, sizeof text, "%g", got);
+    failure_set(failure_add(out), ST_INVALID, pointer, "out_of_range", expected, text,
+                "%s is out of range", pointer);
+}
+
+void train_def_check(const struct train_def *def, int n_hidden, struct failure_list *out)
+{
+    if (n_hidden < 1 || n_hidden > LIMIT_NET_HIDDEN) {
+        refuse(out, "--hidden", "1..512", n_hidden);
+    }
+    if (def->epochs < 1 || def->epochs > TRAIN_EPOCHS_MAX) {
+        refuse(out, "--epochs", "1..100000", def->epochs);
+    }
+    if (!(def->decay >= 0.0 && def->decay <= 1.0)) {
+        refuse(out, "--decay", "0..1", def->decay);
+    }
+}
+
+void train_curve_done(struct train_curve *c)
+{
+    free(c->trained);
+    free(c->held);
+    *c = (struct train_curve){0};
+}
+
+bool train_is_cancelled(const struct sim_control *control, int epoch, int epochs)
+{
+    if (control == NULL) {
+        return false;
+    }
+    if (control->progress != NULL) {
+        atomic_store(control->progress, (double)epoch / epochs);
+    }
+    return control->cancel != NULL && atomic_load(control->cancel);
+}
+
+bool train_note(const struct train_problem *problem, const struct train_def *def, double trained,
+                const double *p, double *best, struct train_curve *curve)
+{
+    const double held =
+        perceptron_error(&problem->shape, p, problem->n_held, problem->held_x, problem->held_t);
+    const int i = curve->n++;
+    curve->trained[i] = trained;
+    curve->held[i] = held;
+    if (i == 0 || held < (1.0 - better) * curve->held[curve->best]) {
+        curve->best = i;
+        memcpy(best, p, (size_t)perceptron_count(&problem->shape) * sizeof *best);
+    }
+    return i - curve->best >= def->patience;
+}
+
+/* Rows of the net's inputs and outputs out of the samples, scaled: x and t in one block. */
+static double *scaled(const struct sample_set *s, const struct network_def *net)
+{
+    double *x = malloc((size_t)s->n * (size_t)(net->n_in + net->n_out) * sizeof *x);
+    if (x == NULL) {
+        return NULL;
+    }
+    double *t = x + (ptrdiff_t)s->n * net->n_in;
+    for (int k = 0; k < s->n; k++) {
+        for (int i = 0; i < net->n_in; i++) {
+            const double v = s->x[num_at((int)net->input[i], k, NET_IN_COUNT)];
+            x[num_at(i, k, net->n_in)] = (v - net->in_offset[i]) / net->in_scale[i];
+        }
+        for (int o = 0; o < net->n_out; o++) {
+            const double v = s->y[num_at((int)net->output[o], k, NET_OUT_COUNT)];
+            t[num_at(o, k, net->n_out)] = (v - net->out_offset[o]) / net->out_scale[o];
+        }
+    }
+    return x;
+}
+
+/* The vector of parameters into the arrays of the network. */
+static enum status take_weights(const double *p, struct network_def *net)
+{
+    const int size[4] = {net->n_in * net->n_hidden, net->n_hidden, net->n_hidden * net->n_out,
+                         net->n_out};
+    double **const array[4] = {&net->w1, &net->b1, &net->w2, &net->b2};
+    for (int k = 0; k < 4; k++) {
+        *array[k] = malloc((size_t)size[k] * sizeof *p);
+        if (*array[k] == NULL) {
+            network_def_done(net);
+            return ST_NO_MEMORY;
+        }
+        memcpy(*array[k], p, (size_t)size[k] * sizeof *p);
+        p += size[k];
+    }
+    return ST_OK;
+}
+
+static enum status optimise(const struct train_problem *problem, const struct train_def *def,
+                            const struct sim_control *control, struct network_def *net,
+                            struct train_curve *curve)
+{
+    const size_t count = (size_t)perceptron_count(&problem->shape);
+    struct train_curve c = {.trained = calloc((size_t)def->epochs + 1, sizeof(double)),
+                            .held = calloc((size_t)def->epochs + 1, sizeof(double))};
+    double *p = malloc(2 * count * sizeof *p);
+    enum status st = p != NULL && c.trained != NULL && c.held != NULL ? ST_OK : ST_NO_MEMORY;
+    if (st == ST_OK) {
+        double *best = p + count;
+        perceptron_start(&problem->shape, def->seed, p);
+        st = def->optimiser == TRAIN_LM ? train_lm(problem, def, control, p, best, &c)
+                                        : train_adam(problem, def, control, p, best, &c);
+        if (st == ST_OK) {
+            st = num_all_finite((int)count, best) ? take_weights(best, net) : ST_NOT_FINITE;
+        }
+    }
+    if (st == ST_OK) {
+        *curve = c;
+    } else {
+        train_curve_done(&c);
+    }
+    free(p);
+    return st;
+}
+
+enum status train_network(const struct dataset *data, const struct train_def *def,
+                          const struct sim_control *control, struct network_def *net,
+                          struct train_curve *curve, struct failure_list *problems)
+{
+    const int before = problems->total;
+    dataset_scaling(&data->trained, net, problems);
+    if (problems->total > before) {
+        return ST_INVALID;
+    }
+    double *trained = scaled(&data->trained, net), *held = scaled(&data->held, net);
+    enum status st = ST_NO_MEMORY;
+    if (trained != NULL && held != NULL) {
+        const struct train_problem problem = {
+            .shape = {.n_in = net->n_in, .n_hidden = net->n_hidden, .n_out = net->n_out},
+            .n_trained = data->trained.n,
+            .n_held = data->held.n,
+            .trained_x = trained,
+            .trained_t = trained + (ptrdiff_t)data->trained.n * net->n_in,
+            .held_x = held,
+            .held_t = held + (ptrdiff_t)data->held.n * net->n_in};
+        st = optimise(&problem, def, control, net, curve);
+    }
+    free(trained);
+    free(held);
+    return st;
+}

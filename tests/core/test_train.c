@@ -1,0 +1,272 @@
+/* Training against networks that are known, derivatives against differences. */
+#include "core/network/train.h"
+#include "core/network/train_adam.h"
+#include "core/network/train_lm.h"
+#include "core/num.h"
+#include "tests/support/fixture.h"
+#include "tests/support/unit.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    IN = 3,
+    HIDDEN = 9,
+    OUT = 2,
+    SAMPLES = 600,
+    COUNT = IN * HIDDEN + HIDDEN + OUT * HIDDEN + OUT
+};
+
+static const struct perceptron shape = {.n_in = IN, .n_hidden = HIDDEN, .n_out = OUT};
+
+static void random_vector(int n, uint64_t seed, double *x)
+{
+    for (int i = 0; i < n; i++) {
+        x[i] = fixture_normal(&seed);
+    }
+}
+
+static void the_jacobian_is_that_of_differences(void **state)
+{
+    (void)state;
+    enum { N = 5 };
+    double p[COUNT], x[IN * N], t[OUT * N], e[OUT * N], j[COUNT * OUT * N], other[OUT * N];
+    double unused[COUNT * OUT * N];
+    assert_int_equal(perceptron_count(&shape), COUNT);
+    perceptron_start(&shape, 4, p);
+    random_vector(IN * N, 1, x);
+    random_vector(OUT * N, 2, t);
+    perceptron_jacobian(&shape, p, N, x, t, e, j);
+    for (int i = 0; i < COUNT; i++) {
+        const double h = 1e-6, keep = p[i];
+        double up[OUT * N];
+        p[i] = keep + h;
+        perceptron_jacobian(&shape, p, N, x, t, up, unused);
+        p[i] = keep - h;
+        perceptron_jacobian(&shape, p, N, x, t, other, unused);
+        p[i] = keep;
+        for (int r = 0; r < OUT * N; r++) {
+            assert_near_abs(j[num_at(i, r, COUNT)], (up[r] - other[r]) / (2.0 * h), 1e-8);
+        }
+    }
+}
+
+/* Half the gradient of the sum of squares is J'e. */
+static void the_gradient_is_that_of_the_jacobian(void **state)
+{
+    (void)state;
+    enum { N = 5 };
+    double p[COUNT], x[IN * N], t[OUT * N], e[OUT * N], j[COUNT * OUT * N], g[COUNT] = {0.0};
+    double squares = 0.0;
+    perceptron_start(&shape, 7, p);
+    random_vector(IN * N, 3, x);
+    random_vector(OUT * N, 5, t);
+    perceptron_jacobian(&shape, p, N, x, t, e, j);
+    for (int k = 0; k < N; k++) {
+        perceptron_gradient_add(&shape, p, x + num_at(0, k, IN), t + num_at(0, k, OUT), g);
+    }
+    for (int i = 0; i < COUNT; i++) {
+        double sum = 0.0;
+        for (int r = 0; r < OUT * N; r++) {
+            sum += j[num_at(i, r, COUNT)] * e[r];
+        }
+        assert_near_abs(g[i], sum, 1e-12);
+    }
+    for (int r = 0; r < OUT * N; r++) {
+        squares += num_sq(e[r]) / (OUT * N);
+    }
+    assert_near_rel(perceptron_error(&shape, p, N, x, t), squares, 1e-13);
+}
+
+/* Samples of a known network. */
+struct known {
+    double p[COUNT], x[IN * SAMPLES], t[OUT * SAMPLES];
+    struct train_problem problem;
+    struct train_curve curve;
+};
+
+static struct known *known_new(int epochs)
+{
+    struct known *k = calloc(1, sizeof *k);
+    double hidden[HIDDEN];
+    perceptron_start(&shape, 99, k->p);
+    random_vector(IN * SAMPLES, 6, k->x);
+    for (int s = 0; s < SAMPLES; s++) {
+        perceptron_eval(&shape, k->p, k->x + num_at(0, s, IN), hidden, k->t + num_at(0, s, OUT));
+    }
+    const int n = SAMPLES * 4 / 5;
+    k->problem = (struct train_problem){.shape = shape,
+                                        .n_trained = n,
+                                        .n_held = SAMPLES - n,
+                                        .trained_x = k->x,
+                                        .trained_t = k->t,
+                                        .held_x = k->x + num_at(0, n, IN),
+                                        .held_t = k->t + num_at(0, n, OUT)};
+    k->curve.trained = calloc((size_t)epochs + 1, sizeof(double));
+    k->curve.held = calloc((size_t)epochs + 1, sizeof(double));
+    return k;
+}
+
+static void known_free(struct known *k)
+{
+    train_curve_done(&k->curve);
+    free(k);
+}
+
+/* Without noise the samples of a network of the same size are met to rounding, also those that were
+ * not trained; twice, to the same bits. */
+static void lm_recovers_a_known_network(void **state)
+{
+    (void)state;
+    struct train_def def;
+    double p[2][COUNT], best[2][COUNT];
+    train_def_defaults(TRAIN_LM, &def);
+    def.decay = 0.0;
+    def.epochs = 500;
+    def.patience = 500;
+    for (int run = 0; run < 2; run++) {
+        struct known *k = known_new(def.epochs);
+        perceptron_start(&shape, 3, p[run]);
+        assert_ok(train_lm(&k->problem, &def, NULL, p[run], best[run], &k->curve));
+        print_message("lm: %.3g after %d epochs\n", k->curve.held[k->curve.best], k->curve.n - 1);
+        assert_true(k->curve.held[0] > 0.1);
+        assert_true(k->curve.held[k->curve.best] < 1e-16);
+        for (int i = 1; i < k->curve.n; i++) {
+            assert_true(k->curve.trained[i] <= k->curve.trained[i - 1]);
+        }
+        known_free(k);
+    }
+    assert_memory_equal(best[0], best[1], sizeof best[0]);
+}
+
+/* A linear least-squares problem in b2 alone has its answer after one undamped step; the decay then
+ * draws it to zero by the factor 1/(1 + weight). */
+static void the_decay_is_a_ridge(void **state)
+{
+    (void)state;
+    enum { N = 8 };
+    const struct perceptron one = {.n_in = 1, .n_hidden = 1, .n_out = 1};
+    double x[N] = {0.0}, t[N], p[4] = {0.0}, best[4], trained[51], held[51];
+    for (int i = 0; i < N; i++) {
+        t[i] = 2.0;
+    }
+    const struct train_problem problem = {.shape = one,
+                                          .n_trained = N,
+                                          .n_held = N,
+                                          .trained_x = x,
+                                          .trained_t = t,
+                                          .held_x = x,
+                                          .held_t = t};
+    struct train_def def;
+    struct train_curve curve = {.trained = trained, .held = held};
+    train_def_defaults(TRAIN_LM, &def);
+    def.decay = 1.0; /* a quarter for each of the four parameters */
+    def.epochs = 50;
+    assert_ok(train_lm(&problem, &def, NULL, p, best, &curve));
+    /* w1, b1 and w2 stay zero: their gradients are products with one another. */
+    assert_near_abs(p[3], 2.0 / 1.25, 1e-9);
+    assert_near_abs(p[0], 0.0, 1e-12);
+}
+
+static void adam_learns_and_repeats_itself(void **state)
+{
+    (void)state;
+    struct train_def def;
+    double p[2][COUNT], best[2][COUNT];
+    train_def_defaults(TRAIN_ADAM, &def);
+    def.decay = 0.0;
+    def.epochs = 400;
+    def.rate = 5e-3;
+    for (int run = 0; run < 2; run++) {
+        struct known *k = known_new(def.epochs);
+        perceptron_start(&shape, 3, p[run]);
+        assert_ok(train_adam(&k->problem, &def, NULL, p[run], best[run], &k->curve));
+        print_message("adam: %.3g from %.3g\n", k->curve.held[k->curve.best], k->curve.held[0]);
+        assert_true(k->curve.held[k->curve.best] < 0.01 * k->curve.held[0]);
+        known_free(k);
+    }
+    assert_memory_equal(best[0], best[1], sizeof best[0]);
+}
+
+/* Samples held out that contradict what is learnt: the error of theirs rises, the patience ends the
+ * training, and what is kept is the best, not the last. */
+static void patience_ends_the_training(void **state)
+{
+    (void)state;
+    for (int o = 0; o < TRAIN_OPTIMISERS; o++) {
+        struct train_def def;
+        double p[COUNT], best[COUNT];
+        train_def_defaults((enum train_optimiser)o, &def);
+        def.epochs = 200;
+        def.patience = 5;
+        struct known *k = known_new(def.epochs);
+        for (int i = OUT * k->problem.n_trained; i < OUT * SAMPLES; i++) {
+            k->t[i] = -k->t[i];
+        }
+        perceptron_start(&shape, 3, p);
+        assert_ok(o == TRAIN_LM ? train_lm(&k->problem, &def, NULL, p, best, &k->curve)
+                                : train_adam(&k->problem, &def, NULL, p, best, &k->curve));
+        assert_true(k->curve.n < def.epochs);
+        assert_int_equal(k->curve.n - 1 - k->curve.best, 5);
+        assert_near_rel(
+            perceptron_error(&shape, best, k->problem.n_held, k->problem.held_x, k->problem.held_t),
+            k->curve.held[k->curve.best], 1e-14);
+        known_free(k);
+    }
+}
+
+static void a_raised_flag_cancels(void **state)
+{
+    (void)state;
+    atomic_bool cancel = true;
+    _Atomic double progress = -1.0;
+    const struct sim_control control = {.cancel = &cancel, .progress = &progress};
+    for (int o = 0; o < TRAIN_OPTIMISERS; o++) {
+        struct train_def def;
+        double p[COUNT], best[COUNT];
+        train_def_defaults((enum train_optimiser)o, &def);
+        struct known *k = known_new(def.epochs);
+        perceptron_start(&shape, 3, p);
+        assert_int_equal(o == TRAIN_LM
+                             ? train_lm(&k->problem, &def, &control, p, best, &k->curve)
+                             : train_adam(&k->problem, &def, &control, p, best, &k->curve),
+                         ST_CANCELLED);
+        assert_near_abs(atomic_load(&progress), 0.0, 0.0);
+        known_free(k);
+    }
+}
+
+static void ranges_are_checked(void **state)
+{
+    (void)state;
+    struct failure_list *list = calloc(1, sizeof *list);
+    struct train_def def;
+    train_def_defaults(TRAIN_LM, &def);
+    train_def_check(&def, 50, list);
+    assert_int_equal(list->count, 0);
+    def.epochs = 0;
+    def.decay = (double)NAN;
+    train_def_check(&def, LIMIT_NET_HIDDEN + 1, list);
+    assert_int_equal(list->count, 3);
+    assert_string_equal(list->item[0].pointer, "--hidden");
+    assert_string_equal(list->item[1].pointer, "--epochs");
+    assert_string_equal(list->item[2].pointer, "--decay");
+    assert_int_equal(train_optimiser_of("adam"), TRAIN_ADAM);
+    assert_int_equal(train_optimiser_of("newton"), TRAIN_OPTIMISERS);
+    free(list);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_jacobian_is_that_of_differences),
+        cmocka_unit_test(the_gradient_is_that_of_the_jacobian),
+        cmocka_unit_test(lm_recovers_a_known_network),
+        cmocka_unit_test(the_decay_is_a_ridge),
+        cmocka_unit_test(adam_learns_and_repeats_itself),
+        cmocka_unit_test(patience_ends_the_training),
+        cmocka_unit_test(a_raised_flag_cancels),
+        cmocka_unit_test(ranges_are_checked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
