@@ -1,6 +1,7 @@
 #include "api/beam_fields.h"
 
 #include "api/case_fields.h"
+#include "api/drive_fields.h"
 #include "api/section_fields.h"
 
 #include <cjson/cJSON.h>
@@ -70,6 +71,41 @@ static bool has_one_section(const void *base)
     return !has_stations(base);
 }
 
+static bool has_no_pitch(const void *base)
+{
+    return !((const struct api_case *)base)->def.beam.root_pitch.given;
+}
+
+static bool has_no_plunge(const void *base)
+{
+    return !((const struct api_case *)base)->def.beam.root_plunge.given;
+}
+
+static bool has_no_root_motion(const void *base)
+{
+    return has_no_pitch(base) && has_no_plunge(base);
+}
+
+static const struct field root_motion_fields[] = {
+    {.key = "pitch",
+     .kind = FIELD_VARIANT,
+     .offset = AT(def.beam.root_pitch),
+     .names = drive_type_names,
+     .variants = pitch_variants,
+     .choose = drive_choose,
+     .finish = drive_finish,
+     .omit = has_no_pitch},
+    {.key = "plunge",
+     .kind = FIELD_VARIANT,
+     .offset = AT(def.beam.root_plunge),
+     .names = drive_type_names,
+     .variants = plunge_variants,
+     .choose = drive_choose,
+     .finish = drive_finish,
+     .omit = has_no_plunge},
+    {0},
+};
+
 const struct field beam_fields[] = {
     PLAIN("length_m", struct api_case, def.beam.length, .kinds = CASE_WITH_BEAM, .required = true,
           .range = &positive),
@@ -107,6 +143,11 @@ const struct field beam_fields[] = {
      .kind = FIELD_OBJECT,
      .kinds = CASE_IN_SIMULATION | CASE_IN_STATIC,
      .fields = gravity_fields},
+    {.key = "root_motion",
+     .kind = FIELD_OBJECT,
+     .kinds = CASE_IN_SIMULATION,
+     .fields = root_motion_fields,
+     .omit = has_no_root_motion},
     {0},
 };
 

@@ -3,6 +3,7 @@
 #include "api/beam_fields.h"
 #include "api/case_refs.h"
 #include "api/channel.h"
+#include "api/drive_fields.h"
 #include "core/num.h"
 
 #include <assert.h>
@@ -76,11 +77,25 @@ enum {
     STABILITY = CASE_IN_STABILITY
 };
 
+static bool is_calm(const void *base)
+{
+    return !((const struct api_case *)base)->def.flow.gust.given;
+}
+
 static const struct field flow_fields[] = {
     NUMBER("speed_m_s", def.flow.speed, AT_A_SPEED, positive, .required = true),
     NUMBER("density_kg_m3", def.flow.density, FLOWS, not_negative, .unit = 1.0),
     NUMBER("kinematic_viscosity_m2_s", def.flow.kinematic_viscosity, FLOWS, positive, .unit = 1.0),
     NUMBER("incidence_deg", def.flow.incidence, FLOWS, incidence, .unit = FIELD_DEGREE),
+    {.key = "gust",
+     .kind = FIELD_VARIANT,
+     .kinds = SIMULATION,
+     .offset = AT(def.flow.gust),
+     .names = gust_type_names,
+     .variants = gust_variants,
+     .choose = gust_choose,
+     .finish = gust_finish,
+     .omit = is_calm},
     {0},
 };
 

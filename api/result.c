@@ -86,6 +86,28 @@ static void write_means(struct json_out *out, const struct sim_result *r)
     json_object_end(out);
 }
 
+static void write_extreme(struct json_out *out, const char *key, const struct extreme *e,
+                          double scale)
+{
+    json_key(out, key);
+    json_object_begin(out);
+    json_key_number(out, "max", e->max * scale);
+    json_key_number(out, "max_time_s", e->max_time);
+    json_key_number(out, "min", e->min * scale);
+    json_key_number(out, "min_time_s", e->min_time);
+    json_object_end(out);
+}
+
+static void write_peaks(struct json_out *out, const struct sim_result *r)
+{
+    json_key(out, "peaks");
+    json_object_begin(out);
+    write_extreme(out, "tip_plunge_m", &r->peak_plunge, 1.0);
+    write_extreme(out, "tip_twist_deg", &r->peak_twist, degrees);
+    write_extreme(out, "root_bending_n_m", &r->peak_bending, 1.0);
+    json_object_end(out);
+}
+
 static void write_counters(struct json_out *out, const struct sim_counters *n)
 {
     json_key(out, "counters");
@@ -116,6 +138,7 @@ static void write_marching(struct json_out *out, const struct result_view *v)
     json_key_string(out, "wash", wash_name(r->section.wash));
     write_mode_list(out, r);
     write_means(out, r);
+    write_peaks(out, r);
     json_key(out, "damping");
     write_damping(out, v);
     json_key(out, "modal_contribution");

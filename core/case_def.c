@@ -37,6 +37,12 @@ void case_def_defaults(struct case_def *def)
     section_def_defaults(SECTION_STRIP, &def->beam.section);
 }
 
+double case_def_driven_until(const struct case_def *def)
+{
+    const double root = fmax(drive_end(&def->beam.root_pitch), drive_end(&def->beam.root_plunge));
+    return fmax(root, gust_end(&def->flow.gust, def->flow.speed));
+}
+
 bool case_def_flows(const struct case_def *def)
 {
     return case_kind_flows(def->kind) || (def->kind == CASE_STATIC && def->aero.polar != NULL);
@@ -228,7 +234,7 @@ static void check_static(const struct case_def *def, struct failure_list *out)
 static void check_size(const struct case_def *def, struct failure_list *out)
 {
     const double steps = wanted_steps(def);
-    const double kept = (steps + 1.0) * (5.0 + 2.0 * def->solver.modes);
+    const double kept = (steps + 1.0) * (6.0 + 2.0 * def->solver.modes);
     if (steps > LIMIT_STEPS || kept > LIMIT_SERIES_VALUES) {
         char got[64];
         (void)snprintf(got, sizeof got, "%.0f steps", steps);
@@ -336,6 +342,9 @@ void case_def_check(const struct case_def *def, struct failure_list *out)
     }
     if (def->kind == CASE_SIMULATION) {
         check_drag(def, out);
+        gust_check(&def->flow.gust, "/flow/gust", out);
+        drive_check(&def->beam.root_pitch, "/beam/root_motion/pitch", "angle_deg", out);
+        drive_check(&def->beam.root_plunge, "/beam/root_motion/plunge", "displacement_m", out);
         check_solver(def, out);
     }
     if (def->kind == CASE_STABILITY) {

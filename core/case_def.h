@@ -6,6 +6,7 @@
 #ifndef AEROM_CORE_CASE_DEF_H
 #define AEROM_CORE_CASE_DEF_H
 
+#include "core/aero/gust.h"
 #include "core/aero/lifting_line.h"
 #include "core/aero/network.h"
 #include "core/aero/polar.h"
@@ -40,6 +41,10 @@ enum channel {
     CHANNEL_CD,
     CHANNEL_CM,
     CHANNEL_EFFICIENCY,      /* total lift over total drag */
+    CHANNEL_ROOT_BENDING,    /* flap bending moment in the clamp, of an upward load [N m] */
+    CHANNEL_GUST,            /* vertical velocity of the gust, up [m/s] */
+    CHANNEL_ROOT_PITCH,      /* of the clamp [rad] */
+    CHANNEL_ROOT_PLUNGE,     /* of the clamp [m] */
     CHANNEL_MODAL_AMPLITUDE, /* one column per mode [kg^0.5 m] */
     CHANNEL_MODAL_VELOCITY,  /* one column per mode */
     CHANNEL_STATION_PLUNGE,  /* one column per station [m] */
@@ -72,6 +77,7 @@ struct flow_def {
     double density;             /* [kg/m^3], default 1.225 */
     double kinematic_viscosity; /* [m^2/s], default 1.5e-5; only for the Reynolds number */
     double incidence;           /* alpha_0 [rad] */
+    struct gust_def gust;       /* default none */
 };
 
 struct aero_def {
@@ -138,6 +144,9 @@ static inline bool case_kind_flows(enum case_kind kind)
 {
     return kind == CASE_SIMULATION || kind == CASE_STABILITY;
 }
+
+/* Time after which neither gust nor root move any more: 0 without, INFINITY for a sine [s]. */
+double case_def_driven_until(const struct case_def *def);
 
 /* Does the case have a flow and aerodynamics? One of kind static may. */
 bool case_def_flows(const struct case_def *def);

@@ -28,6 +28,7 @@ enum {
     LIMIT_CHANNEL_COLUMNS = 512,    /* recorded columns, vector channels counted by component */
     LIMIT_SERIES_VALUES = 20000000, /* recorded values of one run: 160 MB */
     LIMIT_ROOTS = 16,               /* identified roots reported per signal */
+    LIMIT_TABLE = 256,              /* rows of a gust or of a prescribed motion */
     LIMIT_LOAD_ORDER = 4            /* order of the load extrapolation */
 };
 

@@ -6,6 +6,7 @@
 #ifndef AEROM_CORE_SECTION_DEF_H
 #define AEROM_CORE_SECTION_DEF_H
 
+#include "core/drive.h"
 #include "core/structure/beam.h"
 #include "core/structure/properties.h"
 #include "core/structure/shape.h"
@@ -42,7 +43,9 @@ struct beam_def {
     const struct station_def *station; /* borrowed; linear in between, first at 0, last at length */
     int n_mass;
     struct beam_mass mass[LIMIT_MASSES];
-    double gravity[3]; /* acceleration along x, y, z [m/s^2], default none */
+    double gravity[3];            /* acceleration along x, y, z [m/s^2], default none */
+    struct drive_def root_pitch;  /* of the clamp about the beam's axis, nose-up [rad], none */
+    struct drive_def root_plunge; /* of the clamp along y [m], none */
 };
 
 /* First section of the beam: of its root. */

@@ -2,6 +2,7 @@
 
 #include "core/analysis/equilibrium.h"
 #include "core/coupling/apparent_mass.h"
+#include "core/coupling/excitation.h"
 #include "core/la.h"
 #include "core/num.h"
 
@@ -176,6 +177,31 @@ static void report_means(const struct sim *s, struct sim_result *out)
     out->means.efficiency = out->means.lift / out->means.drag;
 }
 
+static struct extreme extremes(const struct record *r, int column, double dt)
+{
+    const double *y = record_history(r, column);
+    struct extreme e = {.max = y[0], .min = y[0]};
+    for (int i = 1; i < r->n; i++) {
+        if (y[i] > e.max) {
+            e.max = y[i];
+            e.max_time = i * dt;
+        }
+        if (y[i] < e.min) {
+            e.min = y[i];
+            e.min_time = i * dt;
+        }
+    }
+    return e;
+}
+
+static void report_peaks(const struct sim *s, struct sim_result *out)
+{
+    const double dt = s->model.def.solver.time_step;
+    out->peak_plunge = extremes(&s->record, HISTORY_PLUNGE, dt);
+    out->peak_twist = extremes(&s->record, HISTORY_TWIST, dt);
+    out->peak_bending = extremes(&s->record, HISTORY_BENDING, dt);
+}
+
 /* Squared mean modal contribution over the last modal_window seconds (Fig. 14). */
 static void report_contribution(const struct sim *s, int first_column, double *out)
 {
@@ -246,6 +272,7 @@ static enum status set_start(struct sim *s, struct failure *fail)
         return ST_OK;
     }
     double residual = 0.0;
+    excitation_set(&s->model, 0.0, w);
     const enum status st = equilibrium_solve(&s->model, w, &residual);
     if (st != ST_OK) {
         failure_set(fail, st, "/solver/start", "no_equilibrium", NULL, NULL,
@@ -308,6 +335,7 @@ static enum status run_simulation(struct sim *s, const struct sim_control *contr
     report_similarity(&s->model, out);
     report_means(s, out);
     span_loads_report(&s->model, &s->record, &out->loads);
+    report_peaks(s, out);
     report_contribution(s, HISTORY_MODAL, out->contribution_position);
     report_contribution(s, HISTORY_MODAL + s->record.n_mode, out->contribution_velocity);
     st = report_damping(s, out);

@@ -88,6 +88,10 @@ struct sim_result {
         double efficiency; /* lift over drag; NaN, as c_d and drag, if the polar has no drag */
     } means;
     struct span_loads loads; /* over the same window; a little longer after an early stop */
+    /* Largest and least of the whole run, and when [s]. */
+    struct extreme {
+        double max, min, max_time, min_time;
+    } peak_plunge, peak_twist, peak_bending; /* tip [m], tip [rad], clamp [N m] */
     struct damping_result tip_twist, tip_plunge;
     double contribution_position[LIMIT_MODES]; /* squared mean share, sums to 1 (Fig. 14) */
     double contribution_velocity[LIMIT_MODES];

@@ -9,7 +9,9 @@
 static const double growth_tolerance = 0.05; /* ln of the ratio of fluctuations, third to third */
 static const double twist_floor = 3.5e-4;    /* rms twist that counts as rest: 0.02 degrees [rad] */
 static const double plunge_floor = 1e-4;     /* rms plunge that counts as rest, share of length */
-static const double stalled_share = 0.05;    /* of the steps of the last third */
+static const double repetition_limit =
+    0.02;                                 /* rms change from period to period, of the fluctuation */
+static const double stalled_share = 0.05; /* of the steps of the last third */
 
 static const char *const names[VERDICT_COUNT] = {
 #define ROW(code, name) [code] = name,
@@ -23,19 +25,20 @@ const char *verdict_name(enum verdict v)
     return names[v];
 }
 
-/* Fluctuation of one signal over the thirds of the record. */
+/* Fluctuation of one signal over the thirds of the record from `first` on. */
 struct thirds {
     double rms[3];
     double growth; /* ln(rms[2]/rms[1]); 0 when at rest */
     bool at_rest;  /* the last third is below the floor */
 };
 
-static struct thirds thirds_of(const struct record *r, int column, double floor)
+static struct thirds thirds_of(const struct record *r, int first, int column, double floor)
 {
     const double *y = record_history(r, column);
     struct thirds t;
     for (int k = 0; k < 3; k++) {
-        t.rms[k] = damping_fluctuation(y, r->n * k / 3, r->n * (k + 1) / 3);
+        const int n = r->n - first;
+        t.rms[k] = damping_fluctuation(y, first + n * k / 3, first + n * (k + 1) / 3);
     }
     t.at_rest = t.rms[2] <= floor;
     t.growth = t.rms[1] > 0.0 && t.rms[2] > 0.0 ? log(t.rms[2] / t.rms[1]) : 0.0;
@@ -49,9 +52,9 @@ static bool grows_throughout(const struct thirds *t)
     return t->rms[0] > 0.0 && t->rms[1] > factor * t->rms[0] && t->rms[2] > factor * t->rms[1];
 }
 
-static double stalled_in_last_third(const struct record *r)
+static double stalled_in_last_third(const struct record *r, int first)
 {
-    const int from = r->n * 2 / 3;
+    const int from = first + (r->n - first) * 2 / 3;
     int count = 0;
     for (int i = from; i < r->n; i++) {
         count += r->stalled[i];
@@ -108,27 +111,100 @@ static enum verdict of_blow_up(const struct march *march, double stalled, char *
     return stalled > stalled_share ? VERDICT_STALL_FLUTTER : VERDICT_FLUTTER;
 }
 
+/* Lower frequency of the sines that move the clamp [Hz], 0 without; *settled is when they have
+ * faded in. */
+static double drive_frequency(const struct model *m, double *settled)
+{
+    const struct drive_def *const drive[2] = {&m->def.beam.root_pitch, &m->def.beam.root_plunge};
+    double frequency = 0.0;
+    *settled = gust_end(&m->def.flow.gust, m->def.flow.speed);
+    for (int i = 0; i < 2; i++) {
+        if (!drive[i]->given || drive[i]->type != DRIVE_SINE) {
+            *settled = fmax(*settled, drive_end(drive[i]));
+            continue;
+        }
+        const double f = drive[i]->frequency;
+        frequency = frequency > 0.0 ? fmin(frequency, f) : f;
+        *settled = fmax(*settled, drive[i]->start + drive[i]->ramp);
+    }
+    return frequency;
+}
+
+/* Rms change of a signal from one period (in time steps) to the next, over its fluctuation, at the
+ * end of the record; 0 for a signal at rest. */
+static double repetition(const struct record *r, int column, double period, double floor)
+{
+    const double *y = record_history(r, column);
+    const int n = (int)period;
+    const double size = damping_fluctuation(y, r->n - n, r->n);
+    double sum = 0.0;
+    for (int i = r->n - n; i < r->n; i++) {
+        const double at = i - period;
+        const int k = (int)at;
+        const double then = y[k] + (at - k) * (y[k + 1] - y[k]);
+        sum += num_sq(y[i] - then);
+    }
+    return size > floor ? sqrt(sum / n) / size : 0.0;
+}
+
+/* A clamp that swings for ever: does the beam follow? */
+static enum verdict of_drive(const struct march *march, double frequency, int first,
+                             const struct thirds *lead, double stalled, char *reason)
+{
+    const struct model *m = march->model;
+    const struct record *r = march->record;
+    const double period = 1.0 / (frequency * m->def.solver.time_step);
+    if (grows_throughout(lead)) {
+        (void)snprintf(reason, VERDICT_REASON,
+                       "beside the drive the motion of the tip grows all along: its rms rises by "
+                       "%+.3f (ln) in the last third; stalled in %.0f %% of it",
+                       lead->growth, 100.0 * stalled);
+        return stalled > stalled_share ? VERDICT_STALL_FLUTTER : VERDICT_FLUTTER;
+    }
+    if (period < 2.0 || r->n - first < 2.0 * period + 2.0) {
+        (void)snprintf(reason, VERDICT_REASON,
+                       "fewer than two periods of the drive (%.3g Hz) after it has faded in",
+                       frequency);
+        return VERDICT_INDETERMINATE;
+    }
+    const double change =
+        fmax(repetition(r, HISTORY_TWIST, period, 1e-3 * twist_floor),
+             repetition(r, HISTORY_PLUNGE, period, 1e-3 * plunge_floor * m->def.beam.length));
+    (void)snprintf(reason, VERDICT_REASON,
+                   "the motion of the tip changes by %.2g %% rms from one period of the drive "
+                   "(%.3g Hz) to the next, limit %.0f %%; stalled in %.0f %% of the last third",
+                   100.0 * change, frequency, 100.0 * repetition_limit, 100.0 * stalled);
+    return change <= repetition_limit ? VERDICT_FORCED : VERDICT_INDETERMINATE;
+}
+
 enum verdict verdict_of(const struct march *march, char reason[VERDICT_REASON])
 {
     const struct model *m = march->model;
     const struct record *r = march->record;
-    const double stalled = stalled_in_last_third(r);
+    double settled = 0.0;
+    const double drive = drive_frequency(m, &settled), dt = m->def.solver.time_step;
+    const int first = (int)fmin(ceil(settled / dt - 1e-9), r->n - 1);
+    const double stalled = stalled_in_last_third(r, first);
     if (march->stop == STOP_AMPLITUDE || march->stop == STOP_NOT_FINITE) {
         return of_blow_up(march, stalled, reason);
     }
-    const double periods =
-        march->steps * m->def.solver.time_step * m->modes.omega[0] / (2.0 * NUM_PI);
+    const double periods = (march->steps - first) * dt * m->modes.omega[0] / (2.0 * NUM_PI);
     if (periods < VERDICT_PERIODS) {
         (void)snprintf(reason, VERDICT_REASON,
-                       "the run covers %.2g periods of the first mode, a verdict needs %d", periods,
+                       "the run covers %.2g periods of the first mode%s, a verdict needs %d",
+                       periods, first > 0 ? " after what drives it has ended or faded in" : "",
                        VERDICT_PERIODS);
         return VERDICT_INDETERMINATE;
     }
-    const struct thirds twist = thirds_of(r, HISTORY_TWIST, twist_floor);
-    const struct thirds plunge = thirds_of(r, HISTORY_PLUNGE, plunge_floor * m->def.beam.length);
+    const struct thirds twist = thirds_of(r, first, HISTORY_TWIST, twist_floor);
+    const struct thirds plunge =
+        thirds_of(r, first, HISTORY_PLUNGE, plunge_floor * m->def.beam.length);
     /* The worse of the two: what still moves and grows faster. */
     const bool twist_leads = plunge.at_rest || (!twist.at_rest && twist.growth >= plunge.growth);
     const struct thirds *lead = twist_leads ? &twist : &plunge;
+    if (drive > 0.0) {
+        return of_drive(march, drive, first, lead, stalled, reason);
+    }
     const double unit = twist_leads ? num_deg(1.0) : 1e3;
     (void)snprintf(reason, VERDICT_REASON,
                    "rms fluctuation of tip %s by thirds of the record: %.3g, %.3g, %.3g %s "
@@ -136,7 +212,8 @@ enum verdict verdict_of(const struct march *march, char reason[VERDICT_REASON])
                    twist_leads ? "twist" : "plunge", unit * lead->rms[0], unit * lead->rms[1],
                    unit * lead->rms[2], twist_leads ? "deg" : "mm", lead->growth, growth_tolerance,
                    100.0 * stalled);
-    if (twist.at_rest && plunge.at_rest &&
+    const bool driven = case_def_driven_until(&m->def) > 0.0;
+    if (!driven && twist.at_rest && plunge.at_rest &&
         (grows_throughout(&twist) || grows_throughout(&plunge))) {
         (void)snprintf(
             reason, VERDICT_REASON,

@@ -12,6 +12,7 @@
     X(VERDICT_FLUTTER, "flutter")                                                                  \
     X(VERDICT_STALL_FLUTTER, "stall_flutter")                                                      \
     X(VERDICT_LIMIT_CYCLE, "limit_cycle")                                                          \
+    X(VERDICT_FORCED, "forced")                                                                    \
     X(VERDICT_INDETERMINATE, "indeterminate")
 #define VERDICT_ENUM(code, name) code,
 enum verdict { VERDICT_LIST(VERDICT_ENUM) VERDICT_COUNT };
@@ -23,7 +24,11 @@ const char *verdict_name(enum verdict v);
  *  - stopped by amplitude or a number that is not finite: the last period of the first mode swings
  *    to and fro -> flutter (stall_flutter if stalled), else divergence; indeterminate when the
  *    first mode has fewer than VERDICT_STEPS time steps a period;
+ *  - in what follows the record begins when a gust or a table of the root's motion has ended; with
+ *    a sine, which does not end, when it has faded in;
  *  - shorter than VERDICT_PERIODS periods of the first mode: indeterminate;
+ *  - driven by a sine: the tip's motion grows from third to third -> flutter or stall_flutter; else
+ *    it repeats itself from one period of the drive to the next -> forced; else indeterminate;
  *  - twist and plunge stay below the floor, yet one has grown from third to third: indeterminate;
  *  - the fluctuation of twist or plunge grows from the second to the last third -> flutter, or
  *    stall_flutter when stations were stalled;

@@ -25,21 +25,41 @@ static void fill(int n, double value, double *x)
     }
 }
 
-/* alpha_s = alpha_0 + theta - v_dot/V, plunge v/c and v_dot/V. */
+/* alpha_s = alpha_0 + theta - v_dot/V, plunge v/c and v_dot/V; a gust acts at once where no wake
+ * lags. */
 static void kinematics(const struct model *m, struct workspace *w)
 {
     const int n = w->n_station;
     const double speed = m->def.flow.speed;
+    const double sudden = m->attached.n == 0 ? w->gust / speed : 0.0;
     memcpy(w->plunge, w->imposed_plunge, (size_t)n * sizeof *w->plunge);
     memcpy(w->twist, w->imposed_twist, (size_t)n * sizeof *w->twist);
-    fill(n, 0.0, w->plunge_rate);
+    for (int i = 0; i < n; i++) {
+        w->plunge_rate[i] = w->imposed_plunge_rate[i] / speed;
+    }
     to_stations(m, m->station_v, w->q, 1.0, w->plunge);
     to_stations(m, m->station_v, w->qd, 1.0 / speed, w->plunge_rate);
     to_stations(m, m->station_theta, w->q, 1.0, w->twist);
     for (int i = 0; i < n; i++) {
-        w->alpha_geometric[i] = m->def.flow.incidence + w->twist[i] - w->plunge_rate[i];
+        w->alpha_geometric[i] = m->def.flow.incidence + w->twist[i] - w->plunge_rate[i] + sudden;
         w->plunge[i] /= m->chord[i];
     }
+}
+
+/* What of the gust acts on sections that it meets from the leading edge on. */
+static void gust_lag(const struct model *m, struct workspace *w, bool steady)
+{
+    const struct kuessner *k = &m->excitation.kuessner;
+    const double speed = m->def.flow.speed;
+    if (k->n == 0) {
+        return;
+    }
+    if (steady) {
+        kuessner_steady(k, w->gust / speed, w->gust_lag);
+    } else {
+        kuessner_step(k, w->gust_previous / speed, w->gust / speed, w->gust_lag);
+    }
+    kuessner_add(k, w->gust_lag, w->alpha_wake);
 }
 
 /* alpha_34 = alpha_s + c theta_dot/(4 V) and what the wake lets act of it. */
@@ -50,7 +70,7 @@ static void wake_lag(const struct model *m, struct workspace *w, bool steady)
         return;
     }
     memcpy(w->alpha_34_previous, w->alpha_34, (size_t)n * sizeof *w->alpha_34);
-    fill(n, 0.0, w->pitch_rate);
+    fill(n, w->root_pitch.rate / m->def.flow.speed, w->pitch_rate);
     to_stations(m, m->station_theta, w->qd, 1.0 / m->def.flow.speed, w->pitch_rate);
     for (int i = 0; i < n; i++) {
         w->pitch_rate[i] *= m->chord[i];
@@ -62,6 +82,7 @@ static void wake_lag(const struct model *m, struct workspace *w, bool steady)
         attached_step(&m->attached, w->alpha_34_previous, w->alpha_34, w->wake);
     }
     attached_angle(n, w->alpha_34, w->wake, w->alpha_wake);
+    gust_lag(m, w, steady);
 }
 
 static void solve_induced(const struct model *m, struct workspace *w)
@@ -178,8 +199,11 @@ static void network_increment(const struct model *m, struct workspace *w, bool s
         mean[i] = w->ring_sum[i] / w->ring_count;
         delta[i] = w->alpha[i] - mean[i];
     }
-    fill(n, 0.0, rate);
-    fill(n, 0.0, acceleration);
+    for (int i = 0; i < n; i++) {
+        rate[i] = w->root_pitch.rate - w->imposed_acceleration[i] / speed +
+                  (w->gust - w->gust_previous) / (speed * step);
+        acceleration[i] = w->root_pitch.acceleration;
+    }
     to_stations(m, m->station_theta, w->qd, 1.0, rate);
     to_stations(m, m->station_v, w->qdd, -1.0 / speed, rate);
     to_stations(m, m->station_theta, w->qdd, 1.0, acceleration);
@@ -219,8 +243,8 @@ static void report_apparent_mass(const struct model *m, struct workspace *w)
     }
     const int n = w->n_station;
     double plunge[LIMIT_ELEMENTS], pitch[LIMIT_ELEMENTS];
-    fill(n, 0.0, plunge);
-    fill(n, 0.0, pitch);
+    memcpy(plunge, w->imposed_acceleration, (size_t)n * sizeof *plunge);
+    fill(n, w->root_pitch.acceleration, pitch);
     to_stations(m, m->station_v, w->qdd, 1.0, plunge);
     to_stations(m, m->station_theta, w->qdd, 1.0, pitch);
     for (int i = 0; i < n; i++) {
@@ -236,7 +260,8 @@ static void report_apparent_mass(const struct model *m, struct workspace *w)
 static void modal_loads(const struct model *m, struct workspace *w)
 {
     const double q = m->dynamic_pressure;
-    const double c = cos(m->def.flow.incidence), s = sin(m->def.flow.incidence);
+    const double incidence = m->def.flow.incidence + w->root_pitch.value;
+    const double c = cos(incidence), s = sin(incidence);
     for (int i = 0; i < w->n_station; i++) {
         const double chord = m->chord[i];
         const double lift = q * chord * w->cl[i], drag = q * chord * w->cd[i];
@@ -252,7 +277,7 @@ static void modal_loads(const struct model *m, struct workspace *w)
         for (int i = 0; i < w->n_station; i++) {
             sum += u[i] * w->force_x[i] + v[i] * w->force_y[i] + theta[i] * w->moment[i];
         }
-        w->load[j] = sum * m->station_length + m->gravity[j];
+        w->load[j] = sum * m->station_length + m->gravity[j] + w->imposed_load[j];
         for (int k = 0; k < m->n_mode && m->damping_coupling != NULL; k++) {
             w->load[j] -= m->damping_coupling[num_at(j, k, m->n_mode)] * w->qd[k];
         }

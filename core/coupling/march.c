@@ -1,5 +1,6 @@
 #include "core/coupling/march.h"
 
+#include "core/coupling/excitation.h"
 #include "core/num.h"
 
 #include <assert.h>
@@ -36,6 +37,7 @@ static void accelerations(struct march *march, double tau)
 static void evaluate_start(struct march *march)
 {
     struct workspace *w = march->w;
+    excitation_set(march->model, 0.0, w);
     for (int pass = 0; pass < 2; pass++) {
         loads_evaluate(march->model, w, true);
         march->load.n_known = 0;
@@ -104,6 +106,7 @@ enum status march_run(struct march *march, const struct sim_control *control)
             return st;
         }
         accelerations(march, 1.0);
+        excitation_set(march->model, (march->steps + 1) * march->model->def.solver.time_step, w);
         loads_evaluate(march->model, w, false);
         if (!num_all_finite(w->n_mode, w->load)) {
             march->stop = STOP_NOT_FINITE;

@@ -1,6 +1,7 @@
 #include "core/coupling/model.h"
 
 #include "core/coupling/apparent_mass.h"
+#include "core/coupling/excitation.h"
 #include "core/num.h"
 
 #include <assert.h>
@@ -328,6 +329,10 @@ enum status model_build(const struct case_def *def, struct model *out, struct fa
         pointer = "/aerodynamics";
         st = build_aero(&m);
     }
+    if (st == ST_OK && def->kind == CASE_SIMULATION) {
+        part = "gust and motion of the root";
+        st = excitation_build(&m);
+    }
     if (st != ST_OK) {
         failure_set(fail, st, pointer, status_name(st), NULL, NULL, "the %s could not be built: %s",
                     part, status_text(st));
@@ -350,5 +355,7 @@ void model_done(struct model *m)
     free(m->omega2);
     free(m->tip);
     free(m->to_vacuo);
+    free(m->excitation.mid_chord);
+    kuessner_done(&m->excitation.kuessner);
     *m = (struct model){0};
 }

@@ -10,6 +10,19 @@
 #include "core/structure/centres.h"
 #include "core/structure/modes.h"
 
+/* How a moving clamp and a gust act on the modes: core/coupling/excitation.h. */
+struct excitation {
+    double *mid_chord; /* x of mid-chord from the axis at the stations [m] (n_station), owned with
+                          the next three: r' m phi of a rigid beam, the air's mass included */
+    double *plunge;    /* (n_mode) */
+    double *pitch;     /* (n_mode) */
+    double *bending;   /* moment in the clamp per unit q'' (n_mode) */
+    double bending_plunge, bending_pitch; /* per unit acceleration of the clamp */
+    double bending_weight;                /* [N m] */
+    struct drive root_pitch, root_plunge;
+    struct kuessner kuessner; /* n = 0 without a gust on a wake that lags */
+};
+
 struct model {
     struct case_def def;    /* the case; polar, network and stations still borrowed */
     struct section section; /* of the root */
@@ -42,7 +55,8 @@ struct model {
     struct beam_motion *tip; /* of mid-chord (n_mode) */
     /* Only with apparent mass: the modes marched in are those in still air. */
     double *to_vacuo; /* amplitudes of the modes in vacuo per unit of these (n_mode x n_mode) */
-    double *damping_coupling; /* structural damping off the diagonal (n_mode x n_mode) */
+    double *damping_coupling;     /* structural damping off the diagonal (n_mode x n_mode) */
+    struct excitation excitation; /* CASE_SIMULATION */
 };
 
 /* Builds from a checked case. On failure *out is unchanged and *fail names the part. */

@@ -1,6 +1,7 @@
 #include "core/coupling/record.h"
 
 #include "core/coupling/apparent_mass.h"
+#include "core/coupling/excitation.h"
 #include "core/num.h"
 
 #include <assert.h>
@@ -44,11 +45,15 @@ void record_done(struct record *r)
 
 struct tip_state {
     double plunge, twist, chordwise;
+    double bending; /* in the clamp */
 };
 
 static struct tip_state tip_of(const struct model *m, const struct workspace *w)
 {
-    struct tip_state tip = {0};
+    const double arm = beam_def_mid_chord_at(&m->def.beam, m->def.beam.length).x;
+    struct tip_state tip = {.plunge = w->root_plunge.value + arm * w->root_pitch.value,
+                            .twist = w->root_pitch.value,
+                            .bending = excitation_root_bending(m, w)};
     for (int j = 0; j < m->n_mode; j++) {
         tip.plunge += m->tip[j].v * w->q[j];
         tip.twist += m->tip[j].theta * w->q[j];
@@ -94,6 +99,14 @@ static int put_channel(const struct model *m, const struct workspace *w, enum ch
         const double efficiency = total->lift / total->drag;
         return put_vector(r, row, column, 1, &efficiency, 1.0);
     }
+    case CHANNEL_ROOT_BENDING:
+        return put_vector(r, row, column, 1, &tip->bending, 1.0);
+    case CHANNEL_GUST:
+        return put_vector(r, row, column, 1, &w->gust, 1.0);
+    case CHANNEL_ROOT_PITCH:
+        return put_vector(r, row, column, 1, &w->root_pitch.value, 1.0);
+    case CHANNEL_ROOT_PLUNGE:
+        return put_vector(r, row, column, 1, &w->root_plunge.value, 1.0);
     case CHANNEL_MODAL_AMPLITUDE:
         return put_vector(r, row, column, nm, modal, 1.0);
     case CHANNEL_MODAL_VELOCITY:
@@ -129,7 +142,8 @@ void record_push(const struct model *m, const struct workspace *w, struct record
     assert(r->n < r->capacity);
     const struct tip_state tip = tip_of(m, w);
     const struct load_totals total = loads_total(m, w);
-    const double fixed[HISTORY_MODAL] = {tip.plunge, tip.twist, total.cl, total.cd, total.cm};
+    const double fixed[HISTORY_MODAL] = {tip.plunge, tip.twist, total.cl,
+                                         total.cd,   total.cm,  tip.bending};
     for (int k = 0; k < HISTORY_MODAL; k++) {
         r->history[num_at(r->n, k, r->capacity)] = fixed[k];
     }

@@ -14,6 +14,7 @@ enum history_column {
     HISTORY_CL,
     HISTORY_CD,
     HISTORY_CM,
+    HISTORY_BENDING, /* in the clamp [N m] */
     HISTORY_MODAL
 };
 

@@ -42,6 +42,9 @@ static enum status allocate(const struct model *m, struct workspace *w)
         {&w->twist, ns},
         {&w->imposed_twist, ns},
         {&w->imposed_plunge, ns},
+        {&w->imposed_plunge_rate, ns},
+        {&w->imposed_acceleration, ns},
+        {&w->gust_lag, m->excitation.kuessner.n > 0 ? ns * KUESSNER_LAGS : 0},
         {&w->alpha_geometric, ns},
         {&w->pitch_rate, ns},
         {&w->alpha_34, ns},
@@ -62,6 +65,7 @@ static enum status allocate(const struct model *m, struct workspace *w)
         {&w->ring, ns * (size_t)w->window},
         {&w->ring_sum, ns},
         {&w->load, nm},
+        {&w->imposed_load, nm},
     };
     size_t total = 0;
     for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {

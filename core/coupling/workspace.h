@@ -19,26 +19,31 @@ struct workspace {
     double *qdd_previous; /* those one time step earlier, for the jerk of the plunge */
 
     /* stations (n_station each) */
-    double *plunge;            /* v/c */
-    double *plunge_rate;       /* v_dot/V */
-    double *twist;             /* theta [rad] */
-    double *imposed_twist;     /* part of the twist that is not of the modes, else zero [rad] */
-    double *imposed_plunge;    /* likewise of v [m] */
-    double *alpha_geometric;   /* alpha_0 + theta - v_dot/V [rad] */
-    double *pitch_rate;        /* theta_dot c/V, with a wake that lags */
-    double *alpha_34;          /* at three quarters of the chord, with a wake that lags [rad] */
-    double *alpha_34_previous; /* one time step earlier */
-    double *wake;              /* states of the wake's lag (n_station x ATTACHED_LAGS) [rad] */
-    double *alpha_wake;        /* alpha_34 as far as the wake lets it act, else unused [rad] */
-    double *alpha;             /* effective: less the induced angle [rad] */
-    double *induced;           /* w_i/V [rad] */
-    double *stall;             /* states of stall and their targets (n_station x STALL_ARRAYS) */
-    double *net_in;            /* inputs of the network  (n_station x NET_IN_COUNT) */
-    double *net_out;           /* increments of c_l c_m c_d (n_station x NET_OUT_COUNT) */
-    double *cl, *cd, *cm;      /* total coefficients; cd holds profile and induced drag */
-    double *force_x;           /* per length, towards the leading edge [N/m] */
-    double *force_y;           /* per length, up [N/m] */
-    double *moment;            /* per length, nose-up about mid-chord [N] */
+    double *plunge;      /* v/c */
+    double *plunge_rate; /* v_dot/V */
+    double *twist;       /* theta [rad] */
+    /* What moves the stations from outside the modes, zero without: core/coupling/excitation.h,
+     * and the rest of a static deflection. */
+    double *imposed_twist;        /* part of theta [rad] */
+    double *imposed_plunge;       /* of v [m] */
+    double *imposed_plunge_rate;  /* of v_dot [m/s] */
+    double *imposed_acceleration; /* of v_ddot [m/s^2] */
+    double *alpha_geometric;      /* alpha_0 + theta - v_dot/V [rad] */
+    double *pitch_rate;           /* theta_dot c/V, with a wake that lags */
+    double *alpha_34;             /* at three quarters of the chord, with a wake that lags [rad] */
+    double *alpha_34_previous;    /* one time step earlier */
+    double *wake;                 /* states of the wake's lag (n_station x ATTACHED_LAGS) [rad] */
+    double *gust_lag;             /* states of the gust's lag (n_station x KUESSNER_LAGS) [rad] */
+    double *alpha_wake;           /* alpha_34 as far as the wake lets it act, else unused [rad] */
+    double *alpha;                /* effective: less the induced angle [rad] */
+    double *induced;              /* w_i/V [rad] */
+    double *stall;                /* states of stall and their targets (n_station x STALL_ARRAYS) */
+    double *net_in;               /* inputs of the network  (n_station x NET_IN_COUNT) */
+    double *net_out;              /* increments of c_l c_m c_d (n_station x NET_OUT_COUNT) */
+    double *cl, *cd, *cm;         /* total coefficients; cd holds profile and induced drag */
+    double *force_x;              /* per length, towards the leading edge [N/m] */
+    double *force_y;              /* per length, up [N/m] */
+    double *moment;               /* per length, nose-up about mid-chord [N] */
 
     /* sliding mean of the angle of attack: ring of the last `window` steps */
     int window; /* one period of the first mode in time steps */
@@ -47,6 +52,10 @@ struct workspace {
     double *ring_sum; /* (n_station) */
 
     double *load;                           /* modal loads (n_mode) */
+    double *imposed_load;                   /* of them, inertia of the root's motion (n_mode) */
+    struct drive_state root_pitch;          /* of the clamp [rad] */
+    struct drive_state root_plunge;         /* [m] */
+    double gust, gust_previous;             /* vertical velocity now and a time step ago [m/s] */
     struct lifting_line_state lifting_line; /* n = 0 without one */
 
     /* of the last evaluation */

@@ -61,17 +61,28 @@ static void scatter(const struct beam *b, int node, int n, const double *local, 
     }
 }
 
-/* Adds m r for unit accelerations of the whole beam along x, y, z. */
+double beam_rigid_at(const struct beam *b, int node, enum beam_freedom freedom,
+                     enum beam_rigid motion)
+{
+    static const enum beam_freedom direction[BEAM_RIGID] = {D_U, D_V, D_W, D_THETA, D_DV};
+    if (motion == RIGID_FLAP && freedom == D_V) {
+        return b->mesh.z[node];
+    }
+    return freedom == direction[motion] ? 1.0 : 0.0;
+}
+
+/* Adds m r for unit accelerations of the rigid beam. */
 static void scatter_inertia(struct beam *b, int node, int n, const double *m)
 {
-    static const enum beam_freedom direction[3] = {D_U, D_V, D_W};
     for (int i = 0; i < n; i++) {
         const int row = element_index(b, node, i);
         const bool at_root = node == 0 && i < NODE;
-        for (int d = 0; d < 3; d++) {
+        for (int d = 0; d < BEAM_RIGID; d++) {
             double sum = 0.0;
-            for (int j = (int)direction[d]; j < n; j += NODE) {
-                sum += m[num_at(i, j, n)];
+            for (int j = 0; j < n; j++) {
+                sum += m[num_at(i, j, n)] * beam_rigid_at(b, node + j / NODE,
+                                                          (enum beam_freedom)(j % NODE),
+                                                          (enum beam_rigid)d);
             }
             if (row >= 0) {
                 b->inertia[num_at(row, d, b->n_dof)] += sum;
@@ -81,6 +92,22 @@ static void scatter_inertia(struct beam *b, int node, int n, const double *m)
             }
         }
     }
+}
+
+double beam_rigid_inertia(const struct beam *b, enum beam_rigid motion,
+                          enum beam_rigid acceleration)
+{
+    double sum = 0.0;
+    for (int node = 0; node <= b->mesh.n_element; node++) {
+        for (int k = 0; k < BEAM_NODE_FREEDOMS; k++) {
+            const int row = beam_index(b, node, (enum beam_freedom)k);
+            const int a = (int)acceleration;
+            const double load = node == 0 ? b->root_inertia[num_at(k, a, BEAM_NODE_FREEDOMS)]
+                                          : b->inertia[num_at(row, a, b->n_dof)];
+            sum += load * beam_rigid_at(b, node, (enum beam_freedom)k, motion);
+        }
+    }
+    return sum;
 }
 
 /* Mass matrix of a lumped mass on its node: velocities of its centre are u - y theta, v + x theta,
@@ -162,7 +189,7 @@ enum status beam_build(const struct beam_spec *spec, struct beam *out)
                      .root = spec->root,
                      .node_freedoms = node_freedoms,
                      .n_dof = n};
-    b.k = calloc(2 * size + 3 * (size_t)n, sizeof *b.k);
+    b.k = calloc(2 * size + BEAM_RIGID * (size_t)n, sizeof *b.k);
     b.inner = malloc((size_t)(BEAM_INNER * OUTER) * (size_t)n_element * sizeof *b.inner);
     if (spec->shear == SHEAR_RETAINED) {
         b.inner_inertia = malloc((size_t)n_element * sizeof *b.inner_inertia);

@@ -18,6 +18,8 @@
 
 enum beam_freedom { D_W, D_U, D_DU, D_V, D_DV, D_THETA, D_DTHETA, D_SURPLUS, BEAM_NODE_MOST };
 enum { BEAM_NODE_FREEDOMS = D_SURPLUS }; /* those of any beam */
+/* Rigid motions: along x, y, z, about the axis (nose-up), and about x at the root, tip up. */
+enum beam_rigid { RIGID_U, RIGID_V, RIGID_W, RIGID_TWIST, RIGID_FLAP, BEAM_RIGID };
 enum { BEAM_GAUSS = 4 }; /* points of an element at which its section is asked for */
 
 /* Are the transverse shears condensed (zero shear force strain energy) or kept (Timoshenko)? */
@@ -74,10 +76,11 @@ struct beam {
     int n_dof;         /* free ones; a free root warping or root comes last */
     double *k;         /* stiffness (n_dof x n_dof) */
     double *m;         /* mass      (n_dof x n_dof) */
-    double *inertia;   /* inertial load of unit accelerations along x, y, z (n_dof x 3) */
-    /* The same on the freedoms of the root node, clamped or not (BEAM_NODE_FREEDOMS x 3): what of
-     * the weight goes straight into the clamp. */
-    double root_inertia[BEAM_NODE_FREEDOMS * 3];
+    double
+        *inertia; /* inertial load of unit accelerations of the rigid beam (n_dof x BEAM_RIGID) */
+    /* The same on the freedoms of the root node, clamped or not: what of the weight goes straight
+     * into the clamp. */
+    double root_inertia[BEAM_NODE_FREEDOMS * BEAM_RIGID];
     double *inner; /* internal modes of each element per unit of its node freedoms
                       (BEAM_INNER x BEAM_OUTER x n_element) */
     struct inner_inertia *inner_inertia; /* (n_element) with retained shear, else NULL */
@@ -88,6 +91,13 @@ void beam_done(struct beam *b);
 
 /* Index of a node's freedom (node 0 is the root) in the freedom vector, -1 where it is clamped. */
 int beam_index(const struct beam *b, int node, enum beam_freedom freedom);
+/* Value of a node's freedom in a unit rigid motion. */
+double beam_rigid_at(const struct beam *b, int node, enum beam_freedom freedom,
+                     enum beam_rigid motion);
+/* Inertial load on unit motion a of unit acceleration b, the clamped root included: m, its static
+ * moment, its moments of inertia. */
+double beam_rigid_inertia(const struct beam *b, enum beam_rigid motion,
+                          enum beam_rigid acceleration);
 /* The kind of freedom at an index. */
 enum beam_freedom beam_freedom_at(const struct beam *b, int index);
 

@@ -67,6 +67,7 @@ struct check_group {
     X(integrators)                                                                                 \
     X(examples)                                                                                    \
     X(damping)                                                                                     \
+    X(gusts)                                                                                       \
     X(axes)                                                                                        \
     X(static_aero)                                                                                 \
     X(coupling)
