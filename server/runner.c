@@ -116,7 +116,7 @@ static void collect(struct run_outcome *out, const struct api_case *c, const str
     const struct case_def *def = api_case_def(c);
     const struct sim_result *r = sim_result(sim);
     const struct run_timing timing = {.cpu_s = cpu_s};
-    if (def->kind == CASE_SIMULATION) {
+    if (case_kind_flows(def->kind)) {
         (void)snprintf(out->verdict, sizeof out->verdict, "%s", verdict_name(r->verdict));
     }
     out->result.verdict = out->verdict;

@@ -6,7 +6,11 @@ import sqlite3
 import threading
 import time
 
+from pathlib import Path
+
 from daemon import DaemonTest, simulation
+
+ROOT = Path(__file__).resolve().parents[2]
 
 # A run that no test waits for: a million steps of the dearer integrator.
 LONG = {"duration": 200.0, "integrator": "rk4_adaptive"}
@@ -81,6 +85,32 @@ class Jobs(DaemonTest):
             self.assertEqual(d.wait(job)["state"], "done")
             self.assertEqual(d.request("GET", f"/v1/jobs/{job}/section")[0], 200)
             self.assertEqual(d.request("GET", f"/v1/jobs/{job}/series")[0], 404)
+
+    def test_stability(self):
+        """Goland's wing, and a range in which nothing happens."""
+        d = self.start().wait_ready()
+        case = json.loads((ROOT / "data/cases/goland-stability.json").read_text())
+        job = d.submit(case)
+        done = d.wait(job)
+        self.assertEqual((done["state"], done["verdict"]), ("done", "flutter"))
+        status, _, stability = d.request("GET", f"/v1/jobs/{job}/stability")
+        self.assertEqual(status, 200)
+        self.assertAlmostEqual(stability["flutter"]["speed_m_s"] / 137.2, 1, delta=0.015)
+        self.assertAlmostEqual(stability["divergence"]["speed_m_s"] / 252.7, 1, delta=0.005)
+        speeds = stability["speeds_m_s"]
+        self.assertEqual(len(speeds), case["stability"]["count"])
+        for branch in stability["branches"]:
+            self.assertEqual(len(branch["frequency_hz"]), len(speeds))
+        flutters = stability["branches"][stability["flutter"]["mode"] - 1]
+        for speed, ratio in zip(speeds, flutters["damping_ratio"]):
+            self.assertEqual(ratio < 0, speed > stability["flutter"]["speed_m_s"], speed)
+        self.assertEqual(d.request("GET", f"/v1/jobs/{job}/series")[0], 404)
+        case["stability"] = {"from_m_s": 20, "to_m_s": 60}
+        calm = d.submit(case)
+        self.assertEqual(d.wait(calm)["verdict"], "stable")
+        summary = d.request("GET", f"/v1/jobs/{calm}/summary")[2]
+        self.assertEqual((summary["flutter"], summary["divergence"]), ("none_in_range", "none_in_range"))
+        self.assertGreater(summary["least_damped"]["damping_ratio"], 0)
 
     def test_static(self):
         """Tip deflection of an isotropic strip against P L^3 / (3 E I)."""
