@@ -1,5 +1,8 @@
 #include "core/case_def.h"
 
+#include "core/aero/attached.h"
+#include "core/aero/dynamic_stall.h"
+
 #include "core/num.h"
 #include "core/range.h"
 
@@ -287,6 +290,16 @@ static void check_stability(const struct case_def *def, struct failure_list *out
                     "none, attached or dynamic_stall", "network",
                     "a network knows the past by a sliding mean, not by states, and cannot be "
                     "linearised: march it with kind simulation");
+    }
+    const int a_station = (def->aero.dynamic == DYNAMIC_STALL ? STALL_STATES : 0) +
+                          (def->aero.dynamic == DYNAMIC_NONE ? 0 : ATTACHED_LAGS);
+    const int states = 2 * def->solver.modes + a_station * def->beam.elements;
+    if (def->beam.elements <= LIMIT_ELEMENTS && states > LIMIT_STATES) {
+        char expected[64], got[64];
+        (void)snprintf(expected, sizeof expected, "at most %d states", LIMIT_STATES);
+        (void)snprintf(got, sizeof got, "%d states", states);
+        failure_set(failure_add(out), ST_LIMIT, "/beam/elements", "too_many_states", expected, got,
+                    "%d states a station and two a mode are too many for eigenvalues", a_station);
     }
 }
 

@@ -15,6 +15,7 @@ enum {
     LIMIT_STRESS_POSITIONS = 16,  /* positions at which stresses are asked for */
     LIMIT_MASSES = 16,            /* lumped masses of a beam */
     LIMIT_ELEMENTS = 256,         /* beam elements = aerodynamic stations */
+    LIMIT_STATES = 1200,          /* states of the linearised system: minutes of eigenvalues */
     LIMIT_SPEEDS = 1000,          /* speeds of a stability case */
     LIMIT_MODES = 64,             /* modes kept */
     LIMIT_CONTOUR_ELEMENTS = 256, /* elements along one wall of a section */

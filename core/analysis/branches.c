@@ -56,7 +56,8 @@ double branches_likeness(const struct branches *b, int branch, const struct spec
 double branches_follow(const struct branches *b, const struct spectrum *s, struct branches *out)
 {
     bool taken[LIMIT_MODES] = {false};
-    bool used[2 * LIMIT_MODES + 4 * LIMIT_ELEMENTS] = {false};
+    bool used[LIMIT_STATES] = {false};
+    assert(s->n <= LIMIT_STATES);
     struct branches next = *b;
     double least = 1.0;
     for (int round = 0; round < b->n; round++) {

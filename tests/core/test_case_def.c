@@ -190,6 +190,10 @@ static void stability_is_checked(void **state)
     def.solver.n_mode_damping = 1;
     assert_fault(&def, "/solver/modal_damping_ratios/0", "out_of_range");
     def.solver.n_mode_damping = 0;
+    def.aero.dynamic = DYNAMIC_STALL;
+    def.beam.elements = LIMIT_ELEMENTS;
+    assert_fault(&def, "/beam/elements", "too_many_states");
+    def.beam.elements = 16;
     struct network_def network = fixture_network(4, 0.1, 1);
     def.aero.dynamic = DYNAMIC_NETWORK;
     def.aero.network = &network;
