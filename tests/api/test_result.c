@@ -396,8 +396,13 @@ static void test_static_in_a_stream(void **state)
     assert_near_abs(number(s, "air/alpha_deg/0"), 1.0, 0.05); /* at the root the rigid angle */
     json_free(s);
     json_free(document(f, "section", r));
-    r = run_case(f, WING("40"));
-    s = document(f, "summary", r);
+}
+
+static void test_static_beyond_divergence(void **state)
+{
+    struct fixture *f = *state;
+    const struct sim_result *r = run_case(f, WING("40"));
+    cJSON *s = document(f, "summary", r);
     const cJSON *air = cJSON_GetObjectItemCaseSensitive(s, "aeroelastic");
     assert_string_equal(string(air, "state"), "divergence");
     assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(air, "lift_n")));
@@ -435,6 +440,7 @@ int main(void)
         TEST(test_static_closed_form),
         TEST(test_not_finite),
         TEST(test_static_in_a_stream),
+        TEST(test_static_beyond_divergence),
     };
     sim_process_init();
     return cmocka_run_group_tests(tests, NULL, NULL);
