@@ -303,7 +303,8 @@ struct polar_value polar_at(const struct polar *p, double alpha, double plunge)
                                 .cm = value[2],
                                 .cl_slope = hold * slope[0],
                                 .cm_slope = hold * slope[2],
-                                .outside = outside || outside_plunge};
+                                .outside = outside || outside_plunge,
+                                .outside_alpha = outside};
 }
 
 void polar_lift(const struct polar *p, int n, const double *alpha, const double *plunge, double *cl,

@@ -55,9 +55,10 @@ void polar_destroy(struct polar *p);
 
 struct polar_value {
     double cl, cd, cm;
-    double cl_slope; /* d cl / d alpha [1/rad], 0 where the value is held */
-    double cm_slope; /* d cm / d alpha [1/rad] */
-    bool outside;    /* the angle or the plunge was outside the grid */
+    double cl_slope;    /* d cl / d alpha [1/rad], 0 where the value is held */
+    double cm_slope;    /* d cm / d alpha [1/rad] */
+    bool outside;       /* the angle or the plunge was outside the grid */
+    bool outside_alpha; /* the angle was: what is held is not the flow at this angle at all */
 };
 
 /* Coefficients at one angle [rad] and plunge v/c. */

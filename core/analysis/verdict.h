@@ -34,8 +34,8 @@ const char *verdict_name(enum verdict v);
  *    stall_flutter when stations were stalled;
  *  - it stays and is above the floor -> stall_flutter when stalled, limit_cycle when it differs
  *    from the first third, else indeterminate;
- *  - it decays or is below the floor: divergence when the span sits outside the polar, else stable.
- * `reason` receives one sentence with the numbers. */
+ *  - it decays or is below the floor: divergence when the span sits at angles outside the polar,
+ * else stable. `reason` receives one sentence with the numbers. */
 enum { VERDICT_STEPS = 8, VERDICT_PERIODS = 3, VERDICT_REASON = 256 };
 enum verdict verdict_of(const struct march *march, char reason[VERDICT_REASON]);
 

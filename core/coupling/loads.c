@@ -114,7 +114,7 @@ static void steady_coefficients(const struct model *m, struct workspace *w)
         w->cd[i] = v.cd;
         w->cm[i] = v.cm;
         w->counters.outside_polar += v.outside;
-        w->any_outside |= v.outside;
+        w->any_outside |= v.outside_alpha;
         w->any_stalled |= polar_is_stalled(m->polar, w->alpha[i]);
     }
 }

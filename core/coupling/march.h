@@ -26,7 +26,7 @@ struct march {
     struct exponential exponential;
     struct rk4 rk4;
     struct load_polynomial load;
-    long outside_steps; /* states with a station outside the polar */
+    long outside_steps; /* states with a station whose angle is outside the polar */
     enum stop_reason stop;
     int steps; /* taken */
 };

@@ -59,7 +59,7 @@ struct workspace {
     struct lifting_line_state lifting_line; /* n = 0 without one */
 
     /* of the last evaluation */
-    bool any_outside, any_stalled;
+    bool any_outside, any_stalled; /* stations with an angle outside the polar, its linear range */
 
     struct {
         long outside_polar, outside_hull, not_converged, lifting_line_iterations;

@@ -101,6 +101,36 @@ static void the_induced_angle_tilts_the_lift(void **state)
     finish(&s);
 }
 
+/* A plunge beyond the table is counted, but is no angle beyond it: a deflected beam does not
+ * diverge. */
+static void plunge_outside_is_only_counted(void **state)
+{
+    (void)state;
+    struct setting s;
+    start(NULL, &s);
+    struct polar_def two = s.polar;
+    const size_t n = (size_t)two.n_alpha;
+    double plunge[] = {-1e-4, 1e-4}, cl[2 * 64], cd[2 * 64], cm[2 * 64];
+    assert_true(n <= 64);
+    for (size_t i = 0; i < 2 * n; i++) {
+        cl[i] = s.polar.cl[i % n];
+        cd[i] = s.polar.cd[i % n];
+        cm[i] = s.polar.cm[i % n];
+    }
+    two.n_plunge = 2;
+    two.plunge = plunge;
+    two.cl = cl;
+    two.cd = cd;
+    two.cm = cm;
+    polar_destroy(s.model.polar);
+    assert_ok(polar_create(&two, &s.model.polar));
+    s.w.q[0] = 0.05; /* bent up */
+    loads_evaluate(&s.model, &s.w, true);
+    assert_true(s.w.counters.outside_polar > 0);
+    assert_false(s.w.any_outside);
+    finish(&s);
+}
+
 static void outside_and_stalled_are_counted(void **state)
 {
     (void)state;
@@ -277,6 +307,7 @@ int main(void)
         cmocka_unit_test(motion_changes_the_angle),
         cmocka_unit_test(the_induced_angle_tilts_the_lift),
         cmocka_unit_test(outside_and_stalled_are_counted),
+        cmocka_unit_test(plunge_outside_is_only_counted),
         cmocka_unit_test(the_network_sees_scaled_rates),
         cmocka_unit_test(the_mean_slides),
         cmocka_unit_test(steady_stall_is_the_polar),

@@ -134,8 +134,9 @@ static void plunge_is_linear_and_held(void **state)
     const struct polar_value below = polar_at(p, 0.07, -1.5), above = polar_at(p, 0.07, 9.0);
     assert_near_abs(below.cl, row[0], 1e-15);
     assert_near_abs(above.cl, row[2], 1e-15);
-    assert_true(below.outside);
-    assert_true(above.outside);
+    assert_true(below.outside && !below.outside_alpha);
+    assert_true(above.outside && !above.outside_alpha);
+    assert_true(polar_at(p, 9.0, 0.0).outside && polar_at(p, 9.0, 0.0).outside_alpha);
     assert_true(above.cl_slope > 0.0); /* the angle is inside: its slope stays */
     polar_destroy(p);
 }
