@@ -1,84 +1,16 @@
 #include "cli/loop.h"
 
 #include "cli/command.h"
-#include "cli/file.h"
 #include "cli/motion.h"
 #include "cli/options.h"
 #include "cli/report.h"
+#include "cli/source.h"
 
 #include "api/case.h"
-#include "api/entry.h"
-#include "api/library.h"
-#include "api/router.h"
 #include "core/analysis/loop.h"
 #include "core/num.h"
 
 #include <stdlib.h>
-#include <string.h>
-
-static const char *const polar_default = "plate-4pct-channel";
-
-/* What the options name: polar and network of the library or of a file each. */
-struct sources {
-    struct library *library;
-    struct entry_set own;
-};
-
-static bool is_file(const char *name)
-{
-    const size_t length = strlen(name);
-    return length > 5 && strcmp(name + length - 5, ".json") == 0;
-}
-
-static bool read_entry(const char *file, entry_reader read_one, struct sources *s,
-                       struct failure_list *problems)
-{
-    char *text = NULL;
-    size_t size = 0;
-    if (!file_read(file, router_body_max("POST", "/v1/jobs"), &text, &size)) {
-        return false;
-    }
-    const enum status st = entry_parse(text, size, read_one, &s->own, problems);
-    free(text);
-    if (st != ST_OK) {
-        report_failures(stderr, file, problems);
-    }
-    return st == ST_OK;
-}
-
-static bool find_polar(const char *name, struct sources *s, struct failure_list *problems,
-                       const struct polar_def **out)
-{
-    if (is_file(name)) {
-        if (!read_entry(name, entry_read_polar, s, problems)) {
-            return false;
-        }
-        *out = &s->own.polar[0].def;
-        return true;
-    }
-    *out = library_polar(s->library, name);
-    if (*out == NULL) {
-        (void)fprintf(stderr, "aerom: --polar: the library has no polar '%s'\n", name);
-    }
-    return *out != NULL;
-}
-
-static bool find_network(const char *name, struct sources *s, struct failure_list *problems,
-                         const struct network_def **out)
-{
-    if (is_file(name)) {
-        if (!read_entry(name, entry_read_network, s, problems)) {
-            return false;
-        }
-        *out = &s->own.network[0].def;
-        return true;
-    }
-    *out = library_network(s->library, name);
-    if (*out == NULL) {
-        (void)fprintf(stderr, "aerom: --network: the library has no network '%s'\n", name);
-    }
-    return *out != NULL;
-}
 
 static bool find_dynamic(const struct options *o, struct sources *s, struct failure_list *problems,
                          struct loop_def *d)
@@ -94,19 +26,7 @@ static bool find_dynamic(const struct options *o, struct sources *s, struct fail
         (void)fprintf(stderr, "aerom: --network goes with, and only with, --dynamic network\n");
         return false;
     }
-    return o->network == NULL || find_network(o->network, s, problems, &d->network);
-}
-
-static double given(double value, double otherwise)
-{
-    return isnan(value) ? otherwise : value;
-}
-
-/* A count that is no whole number is out of range. */
-static int whole(double value, int otherwise)
-{
-    const double v = given(value, otherwise);
-    return fabs(v) <= 1e6 && fabs(v - nearbyint(v)) < 1e-9 ? (int)lround(v) : -1;
+    return o->network == NULL || source_network(o->network, s, problems, &d->network);
 }
 
 static bool has_sine(const struct options *o)
@@ -117,13 +37,13 @@ static bool has_sine(const struct options *o)
 
 static void set_motion(const struct options *o, struct loop_def *d)
 {
-    d->mean = num_rad(given(o->mean_deg, 0.0));
-    d->amplitude = num_rad(given(o->amplitude_deg, 0.0));
-    d->plunge = given(o->plunge, 0.0);
-    d->phase = num_rad(given(o->phase_deg, 0.0));
+    d->mean = num_rad(options_given(o->mean_deg, 0.0));
+    d->amplitude = num_rad(options_given(o->amplitude_deg, 0.0));
+    d->plunge = options_given(o->plunge, 0.0);
+    d->phase = num_rad(options_given(o->phase_deg, 0.0));
     d->frequency = o->frequency;
-    d->cycles = whole(o->cycles, d->cycles);
-    d->steps = whole(o->steps, d->steps);
+    d->cycles = options_whole(o->cycles, d->cycles);
+    d->steps = options_whole(o->steps, d->steps);
 }
 
 /* `start` is the time of the first sample. */
@@ -171,11 +91,9 @@ int loop_main(int argc, char **argv)
     struct loop_def def;
     struct loop_motion motion = {0};
     double start = 0.0;
-    struct failure fail = {0};
     bool done = false;
     struct failure_list *problems = calloc(1, sizeof *problems);
-    if (problems == NULL || library_create_builtin(&s.library, &fail) != ST_OK) {
-        (void)fprintf(stderr, "aerom: shipped library: %s: %s\n", fail.pointer, fail.detail);
+    if (problems == NULL || !sources_init(&s)) {
         goto out;
     }
     loop_def_defaults(&def);
@@ -186,14 +104,12 @@ int loop_main(int argc, char **argv)
         }
         def.motion = &motion;
     }
-    if (find_polar(o.polar != NULL ? o.polar : polar_default, &s, problems, &def.polar) &&
-        find_dynamic(&o, &s, problems, &def)) {
+    if (source_polar(o.polar, &s, problems, &def.polar) && find_dynamic(&o, &s, problems, &def)) {
         done = compute(&def, start, problems);
     }
 out:
     free(motion.value);
-    entry_set_done(&s.own);
-    library_destroy(s.library);
+    sources_done(&s);
     free(problems);
     return done ? COMMAND_OK : COMMAND_FAILED;
 }

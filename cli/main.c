@@ -3,6 +3,7 @@
 #include "cli/loop.h"
 #include "cli/remote.h"
 #include "cli/run.h"
+#include "cli/train.h"
 
 #include "core/sim.h"
 
@@ -21,6 +22,12 @@ static const struct command commands[] = {
      "[--phase-deg A]\n"
      "      [--cycles N] [--steps N]",
      "coefficients of a section in prescribed pitch and plunge, as CSV; the last line is the work"},
+    {"train", train_main,
+     "FOLDER --output FILE.json [--name NAME] [--description TEXT] [--polar NAME|FILE.json]\n"
+     "      [--inputs NAME,...] [--hidden N] [--optimiser lm|adam] [--epochs N] [--decay X] "
+     "[--seed N]",
+     "train a network on the records of a folder like data/cfd; prints the learning curve and the\n"
+     "      errors on each record, as CSV"},
     {"submit", remote_submit, "CASE.json... [--wait]", "hand cases to the daemon, print their ids"},
     {"wait", remote_wait, "ID... [--timeout SECONDS]", "wait until jobs are finished"},
     {"get", remote_get,

@@ -27,6 +27,15 @@ static const struct option long_options[] = {
     {"phase-deg", required_argument, NULL, 'p'},
     {"cycles", required_argument, NULL, 'y'},
     {"steps", required_argument, NULL, 'e'},
+    {"output", required_argument, NULL, 'W'},
+    {"name", required_argument, NULL, 'A'},
+    {"description", required_argument, NULL, 'X'},
+    {"inputs", required_argument, NULL, 'I'},
+    {"optimiser", required_argument, NULL, 'O'},
+    {"hidden", required_argument, NULL, 'H'},
+    {"epochs", required_argument, NULL, 'E'},
+    {"decay", required_argument, NULL, 'Y'},
+    {"seed", required_argument, NULL, 'S'},
     {"timeout", required_argument, NULL, 't'},
     {"wait", no_argument, NULL, 'w'},
     {"csv", no_argument, NULL, 'c'},
@@ -55,8 +64,13 @@ static const struct target targets[] = {
     TARGET('f', NUMBER, frequency), TARGET('l', NUMBER, plunge),
     TARGET('p', NUMBER, phase_deg), TARGET('y', NUMBER, cycles),
     TARGET('e', NUMBER, steps),     TARGET('t', SECONDS, timeout_s),
-    TARGET('w', FLAG, wait),        TARGET('c', FLAG, csv),
-    TARGET('j', FLAG, json),        TARGET('x', FLAG, text),
+    TARGET('W', TEXT, output),      TARGET('A', TEXT, name),
+    TARGET('X', TEXT, description), TARGET('I', TEXT, inputs),
+    TARGET('O', TEXT, optimiser),   TARGET('H', NUMBER, hidden),
+    TARGET('E', NUMBER, epochs),    TARGET('Y', NUMBER, decay),
+    TARGET('S', NUMBER, seed),      TARGET('w', FLAG, wait),
+    TARGET('c', FLAG, csv),         TARGET('j', FLAG, json),
+    TARGET('x', FLAG, text),
 };
 
 static bool parse_number(const char *text, bool seconds, double *out)
@@ -107,6 +121,10 @@ bool options_parse(int argc, char **argv, const char *allowed, int least, int mo
                         .phase_deg = NAN,
                         .cycles = NAN,
                         .steps = NAN,
+                        .hidden = NAN,
+                        .epochs = NAN,
+                        .decay = NAN,
+                        .seed = NAN,
                         .timeout_s = INFINITY};
     int letter = 0;
     while ((letter = getopt_long(argc, argv, "", long_options, NULL)) != -1) {

@@ -8,7 +8,8 @@
 
 void dataset_def_defaults(struct dataset_def *def)
 {
-    *def = (struct dataset_def){.window = 12.5, .samples_max = 500, .held_share = 0.1, .seed = 1};
+    *def = (struct dataset_def){
+        .window = 12.5, .samples_max = 500, .anchors = 500, .held_share = 0.1, .seed = 1};
 }
 
 double dataset_uniform(uint64_t *state)
@@ -120,6 +121,21 @@ static enum status add_record(const struct dataset_def *def, const struct polar 
     return ST_OK;
 }
 
+/* At rest there is no increment, whatever the angle. */
+static void add_anchors(int n, struct sample_set *s)
+{
+    double largest = 0.0;
+    for (int k = 0; k < s->n; k++) {
+        const double *x = s->x + num_at(0, k, NET_IN_COUNT);
+        largest = fmax(largest, fabs(x[NET_IN_MEAN_ALPHA] + x[NET_IN_DELTA_ALPHA]));
+    }
+    for (int k = 0; k < n; k++) {
+        const double x[NET_IN_COUNT] = {[NET_IN_MEAN_ALPHA] = largest * k / n};
+        const double y[NET_OUT_COUNT] = {0.0};
+        put(x, y, s);
+    }
+}
+
 static enum status add_records(const struct dataset_def *def, int n_record,
                                const struct flow_record *record, struct dataset *d)
 {
@@ -127,6 +143,9 @@ static enum status add_records(const struct dataset_def *def, int n_record,
     enum status st = polar_create(def->polar, &polar);
     for (int i = 0; i < n_record && st == ST_OK; i++) {
         st = add_record(def, polar, &record[i], d->is_held[i], d);
+    }
+    if (st == ST_OK) {
+        add_anchors(def->anchors, &d->trained);
     }
     polar_destroy(polar);
     return st;
@@ -138,7 +157,7 @@ enum status dataset_build(const struct dataset_def *def, int n_record,
 {
     assert(n_record <= FLOW_RECORDS_MAX);
     struct dataset d = {.n_record = n_record};
-    int count[2] = {0, 0};
+    int count[2] = {2 * def->anchors, 0};
     enum status st = n_record > 0 ? ST_OK : ST_INVALID;
     for (int i = 0; i < n_record; i++) {
         if (taken(def, &record[i]) == 0) {

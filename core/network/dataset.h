@@ -63,10 +63,12 @@ struct dataset_def {
     const struct polar_def *polar; /* borrowed, checked */
     double window;                 /* of the mean angle [c/V], > 0 */
     int samples_max;               /* of one record, equally spaced, so that records count alike */
+    int anchors;                   /* samples of steady flow, see below */
     double held_share;             /* of the moving records, 0 < share < 1 */
     uint64_t seed;                 /* of the draw */
 };
-/* Window 12.5 (the first bending of the paper's beam), 500 samples, a tenth held out, seed 1. */
+/* Window 12.5 (the first bending of the paper's beam), 500 samples and anchors, a tenth held out,
+ * seed 1. */
 void dataset_def_defaults(struct dataset_def *def);
 
 /* Samples of one part of the records. Each stands twice, as it is and mirrored: angles, rates,
@@ -86,8 +88,9 @@ struct dataset {
 
 /* Draws `n` records of those that move for validation, by whole record, and makes the samples of
  * all. A record at rest says what steady flow is and is always trained. Every record must have
- * passed its check; with fewer than two that move, or samples only before the start, *out_problems
- * says so and the status is ST_INVALID. On failure *out is unchanged. */
+ * passed its check. Anchors, angles at rest up to the largest one trained, have no increment: that
+ * is what makes the steady polar steady. With fewer than two that move, or samples only before the
+ * start, *out_problems says so and the status is ST_INVALID. On failure *out is unchanged. */
 MUST_CHECK enum status dataset_build(const struct dataset_def *def, int n_record,
                                      const struct flow_record *record,
                                      struct failure_list *problems, struct dataset *out);

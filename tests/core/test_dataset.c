@@ -185,6 +185,7 @@ static void increments_are_mirrored_and_records_stay_whole(void **state)
     dataset_def_defaults(&def);
     def.polar = &polar;
     def.samples_max = 100;
+    def.anchors = 10;
     for (int k = 0; k < 3; k++) {
         def.seed = k == 2 ? 5 : 1;
         assert_ok(dataset_build(&def, RECORDS, record, list, &d[k]));
@@ -197,7 +198,7 @@ static void increments_are_mirrored_and_records_stay_whole(void **state)
         assert_false(d[k].is_held[RECORDS - 1]);
         /* 901 samples behind the start, every tenth of them, mirrored. */
         assert_int_equal(d[k].held.n, 2 * 2 * 91);
-        assert_int_equal(d[k].trained.n, 19 * 2 * 91);
+        assert_int_equal(d[k].trained.n, 19 * 2 * 91 + 2 * def.anchors);
         assert_int_equal(d[k].outside_polar, 0);
     }
     assert_memory_equal(d[0].is_held, d[1].is_held, RECORDS * sizeof(bool));
