@@ -362,8 +362,8 @@ static enum status run_stability(struct sim *s, const struct sim_control *contro
     const enum status st = stability_run(&s->model, control, &s->result.stability);
     if (st == ST_NOT_CONVERGED) {
         failure_set(fail, st, "/stability/from_m_s", "no_equilibrium", "a lower speed", NULL,
-                    "no static equilibrium was found at or below the lowest speed: beyond "
-                    "divergence, or on a stalled slope");
+                    "no static equilibrium was found at a twentieth of the lowest speed: on a "
+                    "stalled slope, or far beyond divergence");
     } else if (st != ST_OK) {
         failure_set(fail, st, "/stability", status_name(st), NULL, NULL,
                     "the stability could not be computed: %s", status_text(st));

@@ -19,9 +19,10 @@ static const double neutral = 1e-6;
 /* One speed: what decides there. */
 struct point {
     double speed;
-    double growth;     /* largest -damping ratio of an oscillation, less `neutral` */
-    int root;          /* its eigenvalue, -1 without */
-    double divergence; /* det(static stiffness)/det(Omega^2): negative beyond divergence */
+    double growth;         /* largest -damping ratio of an oscillation, less `neutral` */
+    int root;              /* its eigenvalue, -1 without */
+    double divergence;     /* det(static stiffness)/det(Omega^2): negative beyond divergence */
+    double q[LIMIT_MODES]; /* the equilibrium */
 };
 
 struct sweep {
@@ -85,27 +86,31 @@ static void find_growth(const struct spectrum *s, struct point *p)
     }
 }
 
-/* Equilibrium, linearisation and spectrum at a speed. Starts from the equilibrium in w->q and
- * leaves the new one there; on ST_NOT_CONVERGED the old one. */
-static enum status solve_at(struct sweep *s, double speed, struct point *p)
+/* Equilibrium, linearisation and spectrum at a speed; the search starts from the equilibrium of
+ * `near`, or from the undeformed beam without it. ST_NOT_CONVERGED when none is found. */
+static enum status solve_at(struct sweep *s, double speed, const struct point *near,
+                            struct point *p)
 {
     const int n = s->at.n_mode;
+    const size_t bytes = (size_t)n * sizeof *s->w.q;
     if (s->control != NULL && s->control->cancel != NULL && atomic_load(s->control->cancel)) {
         return ST_CANCELLED;
     }
     s->at.def.flow.speed = speed;
     s->at.dynamic_pressure = 0.5 * s->at.def.flow.density * num_sq(speed);
-    double keep[LIMIT_MODES], residual = 0.0;
-    memcpy(keep, s->w.q, (size_t)n * sizeof *keep);
+    if (near != NULL) {
+        memcpy(s->w.q, near->q, bytes);
+    }
+    double residual = 0.0;
     enum status st = equilibrium_solve(&s->at, &s->w, &residual);
     if (st == ST_OK) {
         st = linear_fill(&s->at, &s->w, &s->linear);
     }
     if (st != ST_OK) {
-        memcpy(s->w.q, keep, (size_t)n * sizeof *keep);
         return st == ST_SINGULAR ? ST_NOT_CONVERGED : st;
     }
     *p = (struct point){.speed = speed};
+    memcpy(p->q, s->w.q, bytes);
     memcpy(s->scratch, s->linear.static_stiffness, (size_t)n * (size_t)n * sizeof *s->scratch);
     for (int j = 0; j < n; j++) {
         for (int k = 0; k < n; k++) {
@@ -147,7 +152,7 @@ static enum status refine(struct sweep *s, double (*measure)(const struct point 
         guess = num_clamp(guess, a->speed + fmin(0.01 * width, 0.4 * tolerance * b->speed),
                           b->speed - fmin(0.01 * width, 0.4 * tolerance * b->speed));
         struct point p;
-        const enum status st = solve_at(s, i % 3 == 2 ? 0.5 * (a->speed + b->speed) : guess, &p);
+        const enum status st = solve_at(s, i % 3 == 2 ? 0.5 * (a->speed + b->speed) : guess, a, &p);
         if (st != ST_OK) {
             return st;
         }
@@ -164,7 +169,8 @@ static enum status refine(struct sweep *s, double (*measure)(const struct point 
             side = -1;
         }
     }
-    return solve_at(s, b->speed, b);
+    const struct point end = *b;
+    return solve_at(s, end.speed, &end, b);
 }
 
 /* Shares of the natural modes in the energy of an eigenvector: of omega q, amplitudes in vacuo. */
@@ -270,7 +276,7 @@ static enum status find_crossings(struct sweep *s, const struct point *a, const 
     }
     if (st == ST_OK && moved) {
         struct point again;
-        st = solve_at(s, b->speed, &again);
+        st = solve_at(s, b->speed, b, &again);
     }
     return st;
 }
@@ -282,12 +288,11 @@ static enum status find_limit_point(struct sweep *s, struct point *a, double gon
     while (gone - a->speed > tolerance * gone) {
         const double middle = 0.5 * (a->speed + gone);
         struct point p;
-        const enum status st = solve_at(s, middle, &p);
+        enum status st = solve_at(s, middle, a, &p);
         if (st == ST_OK) {
-            const enum status found = find_crossings(s, a, &p);
-            if (found != ST_OK) {
-                return found;
-            }
+            st = find_crossings(s, a, &p);
+        }
+        if (st == ST_OK) {
             *a = p;
         } else if (st == ST_NOT_CONVERGED) {
             gone = middle;
@@ -304,7 +309,7 @@ static enum status find_limit_point(struct sweep *s, struct point *a, double gon
 
 /* Follows the branches from a, where they are known, to a speed; smaller steps where it is not
  * clear which is which. ST_NOT_CONVERGED when the equilibrium ends on the way. */
-static enum status follow(struct sweep *s, struct point *a, double speed, bool look)
+static enum status follow(struct sweep *s, struct point *a, double speed)
 {
     static const double sure = 0.5;
     const double least_step = (speed - a->speed) / SUBSTEPS;
@@ -312,7 +317,7 @@ static enum status follow(struct sweep *s, struct point *a, double speed, bool l
     while (a->speed < speed) {
         struct point p;
         const double next = speed - a->speed <= step * (1.0 + 1e-12) ? speed : a->speed + step;
-        enum status st = solve_at(s, next, &p);
+        enum status st = solve_at(s, next, a, &p);
         if (st == ST_NOT_CONVERGED) {
             return find_limit_point(s, a, next);
         }
@@ -324,11 +329,12 @@ static enum status follow(struct sweep *s, struct point *a, double speed, bool l
             step *= 0.5;
             continue;
         }
-        if (look) {
-            st = find_crossings(s, a, &p);
-            if (st != ST_OK) {
-                return st;
-            }
+        st = find_crossings(s, a, &p);
+        if (st == ST_NOT_CONVERGED) {
+            return find_limit_point(s, a, p.speed);
+        }
+        if (st != ST_OK) {
+            return st;
         }
         s->branches = moved;
         *a = p;
@@ -364,23 +370,27 @@ static void keep_point(struct sweep *s, int i, const struct point *p)
     }
 }
 
-/* From still air to the lowest speed, to know the branches by their natural modes; and what is
- * unstable there already. */
+/* From still air to the lowest speed, to know the branches by their natural modes; and what becomes
+ * unstable on the way. */
 static enum status begin(struct sweep *s, struct point *p)
 {
     static const double slow = 0.05; /* of the lowest speed: next to still air */
     const double from = s->at.def.stability.from;
-    enum status st = solve_at(s, slow * from, p);
+    struct stability_result *r = s->out;
+    enum status st = solve_at(s, slow * from, NULL, p);
     if (st != ST_OK) {
         return st;
     }
+    const bool grows = p->growth > 0.0;
     (void)branches_follow(&s->branches, &s->spectrum, &s->branches);
-    st = follow(s, p, from, false);
-    if (st == ST_OK && p->growth > 0.0) {
-        describe_flutter(s, p, ONSET_BELOW, &s->out->flutter);
+    st = follow(s, p, from);
+    if (r->flutter.onset != ONSET_NONE) {
+        r->flutter.onset = ONSET_BELOW;
+    } else if (st == ST_OK && grows && p->growth > 0.0) {
+        describe_flutter(s, p, ONSET_BELOW, &r->flutter);
     }
-    if (st == ST_OK && p->divergence <= 0.0) {
-        s->out->divergence = (struct divergence_point){.onset = ONSET_BELOW, .speed = from};
+    if (r->divergence.onset == ONSET_CROSSING) {
+        r->divergence.onset = ONSET_BELOW;
     }
     return st;
 }
@@ -419,14 +429,14 @@ enum status stability_run(const struct model *m, const struct sim_control *contr
     for (int i = 0; i < d->count && st == ST_OK; i++) {
         const double speed = d->from + (d->to - d->from) * i / (d->count - 1);
         if (i > 0) {
-            st = follow(&s, &p, speed, true);
+            st = follow(&s, &p, speed);
         }
         if (st == ST_OK) {
             keep_point(&s, i, &p);
         }
     }
     sweep_done(&s);
-    if (st == ST_NOT_CONVERGED && r.n_speed > 0) {
+    if (st == ST_NOT_CONVERGED && r.divergence.onset != ONSET_NONE) {
         st = ST_OK; /* the equilibrium ended: said in r.divergence */
     }
     if (st != ST_OK) {

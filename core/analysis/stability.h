@@ -13,7 +13,7 @@ enum onset {
     ONSET_NONE,        /* not in the range */
     ONSET_CROSSING,    /* at the speed given, to the tolerance of the case */
     ONSET_LIMIT_POINT, /* divergence only: the equilibrium ends there */
-    ONSET_BELOW        /* unstable already at the lowest speed */
+    ONSET_BELOW        /* below the range: at the speed given or, if that is the lowest, before */
 };
 
 struct divergence_point {
@@ -61,7 +61,7 @@ struct stability_result {
 
 /* Runs over the speeds of the case of a model built for CASE_STABILITY. *out owns memory:
  * stability_done, also on a zeroed struct. ST_CANCELLED when the flag was raised; on
- * ST_NOT_CONVERGED there is no equilibrium even at the lowest speed. */
+ * ST_NOT_CONVERGED there is no equilibrium even next to still air. */
 MUST_CHECK enum status stability_run(const struct model *m, const struct sim_control *control,
                                      struct stability_result *out);
 

@@ -8,8 +8,7 @@ static const char *sort_of(enum onset onset)
     static const char *const text[] = {[ONSET_NONE] = "",
                                        [ONSET_CROSSING] = "",
                                        [ONSET_LIMIT_POINT] = ", where the equilibrium ends",
-                                       [ONSET_BELOW] =
-                                           " or lower: it is there at the lowest speed"};
+                                       [ONSET_BELOW] = ", below the range or at its start"};
     return text[onset];
 }
 
