@@ -1,5 +1,6 @@
 #include "core/aero/attached.h"
 
+#include "core/aero/lag.h"
 #include "core/num.h"
 
 #include <math.h>
@@ -7,8 +8,6 @@
 
 static const double share[ATTACHED_LAGS] = {0.0198333, 0.1225634, 0.2693821, 0.0882212};
 static const double rate[ATTACHED_LAGS] = {0.00635589, 0.05401174, 0.20526856, 0.69061335};
-
-enum { FACTOR_STATE, FACTOR_OLD, FACTOR_NEW, FACTORS };
 
 double attached_rate(int lag)
 {
@@ -20,27 +19,16 @@ double attached_share(int lag)
     return share[lag];
 }
 
-/* First of the n factors of a kind for a lag. */
-static double *factors(const struct attached *a, int lag, int kind)
-{
-    return a->step + (ptrdiff_t)a->n * (lag * FACTORS + kind);
-}
-
 enum status attached_init(int n, const double *chord, double speed, double dt, struct attached *out)
 {
     struct attached a = {.n = n};
-    a.step = malloc((size_t)n * FACTORS * ATTACHED_LAGS * sizeof *a.step);
+    a.step = malloc((size_t)n * LAG_FACTORS * ATTACHED_LAGS * sizeof *a.step);
     if (a.step == NULL) {
         return ST_NO_MEMORY;
     }
     for (int lag = 0; lag < ATTACHED_LAGS; lag++) {
         for (int i = 0; i < n; i++) {
-            /* x' = beta (u - x) with u = u0 + (u1 - u0) t/dt, solved over the step. */
-            const double z = rate[lag] * 2.0 * speed / chord[i] * dt;
-            const double gone = -expm1(-z); /* 1 - e^-z without cancellation */
-            factors(&a, lag, FACTOR_STATE)[i] = 1.0 - gone;
-            factors(&a, lag, FACTOR_OLD)[i] = gone / z - (1.0 - gone);
-            factors(&a, lag, FACTOR_NEW)[i] = 1.0 - gone / z;
+            lag_fill(lag_factors(a.step, n, lag), n, i, rate[lag] * 2.0 * speed / chord[i] * dt);
         }
     }
     *out = a;
@@ -57,12 +45,10 @@ void attached_step(const struct attached *a, const double *alpha_old, const doub
                    double *x)
 {
     for (int lag = 0; lag < ATTACHED_LAGS; lag++) {
-        const double *restrict keep = factors(a, lag, FACTOR_STATE);
-        const double *restrict old = factors(a, lag, FACTOR_OLD);
-        const double *restrict new = factors(a, lag, FACTOR_NEW);
+        const double *factor = lag_factors(a->step, a->n, lag);
         double *restrict state = x + num_at(0, lag, a->n);
         for (int i = 0; i < a->n; i++) {
-            state[i] = keep[i] * state[i] + old[i] * alpha_old[i] + new[i] * alpha_new[i];
+            state[i] = lag_next(factor, a->n, i, state[i], alpha_old[i], alpha_new[i]);
         }
     }
 }

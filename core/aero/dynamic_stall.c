@@ -1,12 +1,12 @@
 #include "core/aero/dynamic_stall.h"
 
+#include "core/aero/lag.h"
 #include "core/num.h"
 
 #include <assert.h>
 #include <stdlib.h>
 
 enum { LAG_PRESSURE, LAG_BOUNDARY_LAYER, LAG_VORTEX };
-enum { FACTOR_STATE, FACTOR_OLD, FACTOR_NEW, FACTORS };
 enum { SAMPLES = 200, BISECTIONS = 60 };
 
 /* Shares of Kirchhoff's flow: separated at the leading edge, and attached. */
@@ -88,17 +88,12 @@ static void linear_lift(struct dynamic_stall *ds, double from, double to)
     ds->polar_slope = slope;
 }
 
-static double *factors(const struct dynamic_stall *ds, int which, int kind)
-{
-    return ds->step + (ptrdiff_t)ds->n * (which * FACTORS + kind);
-}
-
 enum status dynamic_stall_init(int n, const double *chord, double speed, double dt,
                                const struct polar *polar, const struct stall_def *def,
                                struct dynamic_stall *out)
 {
     struct dynamic_stall ds = {.n = n, .polar = polar, .def = *def};
-    ds.rate = malloc((size_t)n * (1 + FACTORS * STALL_LAGS) * sizeof *ds.rate);
+    ds.rate = malloc((size_t)n * (1 + LAG_FACTORS * STALL_LAGS) * sizeof *ds.rate);
     if (ds.rate == NULL) {
         return ST_NO_MEMORY;
     }
@@ -109,12 +104,7 @@ enum status dynamic_stall_init(int n, const double *chord, double speed, double 
     for (int which = 0; which < STALL_LAGS; which++) {
         assert(lag(def, which) > 0.0);
         for (int i = 0; i < n; i++) {
-            /* x' = (u - x)/T with u linear over the step. */
-            const double z = ds.rate[i] * dt / lag(def, which);
-            const double gone = -expm1(-z); /* 1 - e^-z without cancellation */
-            factors(&ds, which, FACTOR_STATE)[i] = 1.0 - gone;
-            factors(&ds, which, FACTOR_OLD)[i] = gone / z - (1.0 - gone);
-            factors(&ds, which, FACTOR_NEW)[i] = 1.0 - gone / z;
+            lag_fill(lag_factors(ds.step, n, which), n, i, ds.rate[i] * dt / lag(def, which));
         }
     }
     const struct polar_range range = polar_linear_range(polar);
@@ -166,11 +156,9 @@ static double *row(const struct dynamic_stall *ds, double *x, int k)
 static inline void follow(const struct dynamic_stall *ds, double *x, int state, int i,
                           double target)
 {
-    const double *factor = factors(ds, lag_of[state], 0);
+    const double *factor = lag_factors(ds->step, ds->n, lag_of[state]);
     double *value = row(ds, x, state) + i, *old = row(ds, x, STALL_STATES + state) + i;
-    *value = factor[num_at(i, FACTOR_STATE, ds->n)] * *value +
-             factor[num_at(i, FACTOR_OLD, ds->n)] * *old +
-             factor[num_at(i, FACTOR_NEW, ds->n)] * target;
+    *value = lag_next(factor, ds->n, i, *value, *old, target);
     *old = target;
 }
 

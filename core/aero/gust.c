@@ -1,5 +1,6 @@
 #include "core/aero/gust.h"
 
+#include "core/aero/lag.h"
 #include "core/num.h"
 #include "core/range.h"
 
@@ -79,29 +80,16 @@ double gust_end(const struct gust_def *g, double speed)
     return g->start + (g->type == GUST_STEP ? 0.0 : duration_of(g, speed));
 }
 
-enum { FACTOR_STATE, FACTOR_OLD, FACTOR_NEW, FACTORS };
-
-/* First of the n factors of a kind for a lag. */
-static double *factors(const struct kuessner *k, int lag, int kind)
-{
-    return k->step + (ptrdiff_t)k->n * (lag * FACTORS + kind);
-}
-
 enum status kuessner_init(int n, const double *chord, double speed, double dt, struct kuessner *out)
 {
     struct kuessner k = {.n = n};
-    k.step = malloc((size_t)n * FACTORS * KUESSNER_LAGS * sizeof *k.step);
+    k.step = malloc((size_t)n * LAG_FACTORS * KUESSNER_LAGS * sizeof *k.step);
     if (k.step == NULL) {
         return ST_NO_MEMORY;
     }
     for (int lag = 0; lag < KUESSNER_LAGS; lag++) {
         for (int i = 0; i < n; i++) {
-            /* x' = beta (u - x) with u = u0 + (u1 - u0) t/dt, solved over the step. */
-            const double z = rate[lag] * 2.0 * speed / chord[i] * dt;
-            const double gone = -expm1(-z); /* 1 - e^-z without cancellation */
-            factors(&k, lag, FACTOR_STATE)[i] = 1.0 - gone;
-            factors(&k, lag, FACTOR_OLD)[i] = gone / z - (1.0 - gone);
-            factors(&k, lag, FACTOR_NEW)[i] = 1.0 - gone / z;
+            lag_fill(lag_factors(k.step, n, lag), n, i, rate[lag] * 2.0 * speed / chord[i] * dt);
         }
     }
     *out = k;
@@ -117,12 +105,10 @@ void kuessner_done(struct kuessner *k)
 void kuessner_step(const struct kuessner *k, double angle_old, double angle_new, double *x)
 {
     for (int lag = 0; lag < KUESSNER_LAGS; lag++) {
-        const double *restrict keep = factors(k, lag, FACTOR_STATE);
-        const double *restrict old = factors(k, lag, FACTOR_OLD);
-        const double *restrict new = factors(k, lag, FACTOR_NEW);
+        const double *factor = lag_factors(k->step, k->n, lag);
         double *restrict state = x + num_at(0, lag, k->n);
         for (int i = 0; i < k->n; i++) {
-            state[i] = keep[i] * state[i] + old[i] * angle_old + new[i] * angle_new;
+            state[i] = lag_next(factor, k->n, i, state[i], angle_old, angle_new);
         }
     }
 }
