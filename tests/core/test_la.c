@@ -122,6 +122,25 @@ static void least_squares_and_eigenvalues(void **state)
     assert_near_abs(im[0] + im[1], 0.0, 1e-15);
 }
 
+static void eigenvectors_and_determinant(void **state)
+{
+    (void)state;
+    /* A quarter turn: i and -i, with the vectors (1, -i) and (1, i), both of unit length. */
+    double turn[4] = {0.0, 1.0, -1.0, 0.0}, re[2], im[2], v[4];
+    assert_ok(la_eigen(2, turn, re, im, v));
+    assert_near_abs(re[0], 0.0, 1e-15);
+    assert_near_abs(im[0], 1.0, 1e-15); /* the positive one first */
+    /* a v = i v: the real part of a v is minus the imaginary part of v. */
+    assert_near_abs(-v[1], -v[2], 1e-15);
+    assert_near_abs(v[0], -v[3], 1e-15);
+    assert_near_abs(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3], 1.0, 1e-14);
+    int pivot[3];
+    double a[9] = {0.0, 2.0, 1.0, 1.0, 0.0, 3.0, 4.0, 5.0, 6.0}; /* columns; rows change places */
+    assert_near_rel(la_determinant(3, a, pivot), 17.0, 1e-14);
+    double singular[4] = {1.0, 2.0, 2.0, 4.0};
+    assert_near_abs(la_determinant(2, singular, pivot), 0.0, 0.0);
+}
+
 static int setup(void **state)
 {
     (void)state;
@@ -132,9 +151,13 @@ static int setup(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(solves),          cmocka_unit_test(singular_is_said),
-        cmocka_unit_test(inverse),         cmocka_unit_test(smallest_modes),
-        cmocka_unit_test(singular_values), cmocka_unit_test(least_squares_and_eigenvalues),
+        cmocka_unit_test(solves),
+        cmocka_unit_test(singular_is_said),
+        cmocka_unit_test(inverse),
+        cmocka_unit_test(smallest_modes),
+        cmocka_unit_test(singular_values),
+        cmocka_unit_test(least_squares_and_eigenvalues),
+        cmocka_unit_test(eigenvectors_and_determinant),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }
