@@ -10,6 +10,7 @@
 enum { SAMPLES_MAX = 640, SAMPLES_MIN = 24 };
 static const double samples_per_period_high = 3.0; /* of the fastest mode: Nyquist with a margin */
 static const double threshold = 1e-3;              /* singular values, relative to the largest */
+static const double same_frequency = 0.02;         /* e-folds between roots of one motion */
 
 static double mean_of(const double *y, int from, int to)
 {
@@ -113,20 +114,32 @@ static double log_decrement(const double *y, struct window w)
     return peaks >= 3 ? log(first / last) / (peaks - 1) : (double)NAN;
 }
 
-/* Index of the root nearest in frequency to the torsion mode, at most half as much or twice. */
+/* Distance of two frequencies in e-folds; infinite where one is not positive. */
+static double log_distance(double f, double frequency)
+{
+    return f > 0.0 && frequency > 0.0 ? fabs(log(f / frequency)) : HUGE_VAL;
+}
+
+/* Index of the root that is the torsion: the one nearest in frequency, at most half as much or
+ * twice. An envelope that is not exponential (an approach to a limit cycle) is fitted by several
+ * roots of almost one frequency: of those the largest stands for it. */
 static int find_torsion(const struct damping_result *r, double frequency)
 {
-    int best = -1;
+    int nearest = -1;
     double distance = log(2.0);
-    for (int k = 0; k < r->n_root && frequency > 0.0; k++) {
-        const double f = r->root[k].frequency_hz;
-        const double d = f > 0.0 ? fabs(log(f / frequency)) : HUGE_VAL;
+    for (int k = 0; k < r->n_root; k++) {
+        const double d = log_distance(r->root[k].frequency_hz, frequency);
         if (d < distance) {
             distance = d;
-            best = k;
+            nearest = k;
         }
     }
-    return best;
+    for (int k = 0; k < nearest; k++) { /* by falling amplitude: the first of them is the largest */
+        if (log_distance(r->root[k].frequency_hz, r->root[nearest].frequency_hz) < same_frequency) {
+            return k;
+        }
+    }
+    return nearest;
 }
 
 /* Size a root reaches within the window. */

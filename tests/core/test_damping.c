@@ -52,6 +52,26 @@ static void a_growing_signal_is_read_at_its_end(void **state)
     free(y);
 }
 
+/* Two close components make one envelope; bending swings more, but farther from torsion. */
+static void torsion_is_the_larger_of_close_roots_and_never_bending(void **state)
+{
+    (void)state;
+    enum { N = 20000 };
+    double *large = signal(N, 1.0, -0.4, 35.6, 0.0), *small = signal(N, 0.2, -3.0, 35.3, 0.0);
+    double *bending = signal(N, 3.0, -0.5, 24.0, 0.1);
+    for (int i = 0; i < N; i++) {
+        bending[i] += large[i] + small[i];
+    }
+    const struct damping_result r = identify(N, bending);
+    assert_near_rel(r.root[0].frequency_hz, 24.0, 1e-3);
+    assert_true(r.torsion > 0);
+    assert_near_rel(r.root[r.torsion].frequency_hz, 35.6, 1e-4);
+    assert_near_rel(r.root[r.torsion].ratio, 0.4 / (2.0 * NUM_PI * 35.6), 0.02);
+    free(large);
+    free(small);
+    free(bending);
+}
+
 static void a_runaway_has_a_real_root(void **state)
 {
     (void)state;
@@ -135,6 +155,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_decaying_signal_is_read_at_its_start),
         cmocka_unit_test(a_growing_signal_is_read_at_its_end),
+        cmocka_unit_test(torsion_is_the_larger_of_close_roots_and_never_bending),
         cmocka_unit_test(a_runaway_has_a_real_root),
         cmocka_unit_test(too_little_gives_no_roots),
         cmocka_unit_test(a_blow_up_does_not_fail),
