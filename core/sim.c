@@ -50,14 +50,15 @@ const char *wash_name(enum wash w)
     return name[w];
 }
 
-enum status sim_create(const struct case_def *def, struct sim **out, struct failure *fail)
+enum status sim_create_like(const struct case_def *def, const struct sim *like, struct sim **out,
+                            struct failure *fail)
 {
     struct sim *s = calloc(1, sizeof *s);
     if (s == NULL) {
         failure_set(fail, ST_NO_MEMORY, "", "no_memory", NULL, NULL, "no memory for the run");
         return ST_NO_MEMORY;
     }
-    enum status st = model_build(def, &s->model, fail);
+    enum status st = model_build_like(def, like != NULL ? &like->model : NULL, &s->model, fail);
     if (st == ST_OK && def->kind == CASE_SIMULATION) {
         st = workspace_init(&s->model, &s->workspace);
         if (st == ST_OK) {
@@ -74,6 +75,11 @@ enum status sim_create(const struct case_def *def, struct sim **out, struct fail
     }
     *out = s;
     return ST_OK;
+}
+
+enum status sim_create(const struct case_def *def, struct sim **out, struct failure *fail)
+{
+    return sim_create_like(def, NULL, out, fail);
 }
 
 static enum status report_section(const struct model *m, struct section_result *out)

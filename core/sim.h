@@ -108,6 +108,12 @@ struct sim_result {
 MUST_CHECK enum status sim_create(const struct case_def *def, struct sim **out,
                                   struct failure *fail);
 
+/* The same for a case that differs from that of `like` only in stream, air, stepping, loads or
+ * output: sections, beam and modes are taken over from there. `like` must outlive the new one; the
+ * case it was made from need not. */
+MUST_CHECK enum status sim_create_like(const struct case_def *def, const struct sim *like,
+                                       struct sim **out, struct failure *fail);
+
 /* Computes. ST_CANCELLED when the flag was raised; a blow-up is a verdict, not a failure. */
 MUST_CHECK enum status sim_run(struct sim *sim, const struct sim_control *control,
                                struct failure *fail);

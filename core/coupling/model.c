@@ -307,19 +307,40 @@ static enum status build_aero(struct model *m)
     return st;
 }
 
-enum status model_build(const struct case_def *def, struct model *out, struct failure *fail)
+/* Sections, beam and modes, solved or taken over; *part and *pointer name what could not be. */
+static enum status build_structure(struct model *m, const struct model *like, const char **part,
+                                   const char **pointer)
+{
+    if (like != NULL) {
+        m->section = like->section;
+        m->section_summary = like->section_summary;
+        m->centres = like->centres;
+        m->thickness = like->thickness;
+        m->beam = like->beam;
+        m->modes = like->modes;
+        m->borrows_structure = true;
+        return ST_OK;
+    }
+    *part = "section";
+    *pointer = "/beam/section";
+    enum status st = build_section(m);
+    if (st == ST_OK && m->def.kind != CASE_SECTION) {
+        *part = "beam and its modes";
+        *pointer = "/beam";
+        st = build_beam(m);
+    }
+    return st;
+}
+
+enum status model_build_like(const struct case_def *def, const struct model *like,
+                             struct model *out, struct failure *fail)
 {
     struct model m = {.def = *def};
     if (def->kind == CASE_STATIC) {
         m.def.aero.dynamic = DYNAMIC_NONE; /* nothing moves */
     }
-    const char *part = "section", *pointer = "/beam/section";
-    enum status st = build_section(&m);
-    if (st == ST_OK && def->kind != CASE_SECTION) {
-        part = "beam and its modes";
-        pointer = "/beam";
-        st = build_beam(&m);
-    }
+    const char *part = "", *pointer = "";
+    enum status st = build_structure(&m, like, &part, &pointer);
     if (st == ST_OK && case_def_flows(def)) {
         part = "transfer between modes and stations";
         st = build_transfer(&m);
@@ -343,10 +364,17 @@ enum status model_build(const struct case_def *def, struct model *out, struct fa
     return ST_OK;
 }
 
+enum status model_build(const struct case_def *def, struct model *out, struct failure *fail)
+{
+    return model_build_like(def, NULL, out, fail);
+}
+
 void model_done(struct model *m)
 {
-    beam_done(&m->beam);
-    modes_done(&m->modes);
+    if (!m->borrows_structure) {
+        beam_done(&m->beam);
+        modes_done(&m->modes);
+    }
     polar_destroy(m->polar);
     network_destroy(m->network);
     lifting_line_done(&m->lifting_line);

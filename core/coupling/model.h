@@ -28,9 +28,10 @@ struct model {
     struct section section; /* of the root */
     struct section_summary section_summary;
     struct centres centres;
-    double thickness;   /* of the root section, overall [m]; NaN with properties */
-    struct beam beam;   /* not for CASE_SECTION */
-    struct modes modes; /* not for CASE_SECTION, and for CASE_STATIC only with a flow */
+    double thickness;       /* of the root section, overall [m]; NaN with properties */
+    struct beam beam;       /* not for CASE_SECTION */
+    struct modes modes;     /* not for CASE_SECTION, and for CASE_STATIC only with a flow */
+    bool borrows_structure; /* what beam and modes point to belongs to another model */
 
     /* The rest only where case_def_flows. */
     struct polar *polar;
@@ -62,6 +63,11 @@ struct model {
 /* Builds from a checked case. On failure *out is unchanged and *fail names the part. */
 MUST_CHECK enum status model_build(const struct case_def *def, struct model *out,
                                    struct failure *fail);
+/* The same for a case that differs from the one of `like` in nothing that shapes sections, beam and
+ * modes (stream, air, stepping, output, loads): those are taken over, not solved again. They still
+ * belong to `like`, which must outlive *out. */
+MUST_CHECK enum status model_build_like(const struct case_def *def, const struct model *like,
+                                        struct model *out, struct failure *fail);
 void model_done(struct model *m);
 
 /* Builds each section of a case that case_def_check found in order, with a coarse mesh, and appends

@@ -60,6 +60,44 @@ static void stall_is_counted(void **state)
     }
 }
 
+/* A run on the structure of another one is the same run, whatever else differs, and needs nothing
+ * of the other's case. */
+static void a_structure_serves_many_runs(void **state)
+{
+    (void)state;
+    static const enum dynamic_type dynamic[] = {DYNAMIC_NONE, DYNAMIC_ATTACHED};
+    for (int k = 0; k < 2; k++) {
+        struct case_def *def = malloc(sizeof *def), *first = malloc(sizeof *first);
+        assert_non_null(def);
+        assert_non_null(first);
+        fixture_paper_beam(-45.0, &polar, def);
+        def->aero.dynamic = dynamic[k];
+        def->solver.duration = 0.2;
+        *first = *def;
+        struct sim *like = run(first);
+        memset(first, 0xff, sizeof *first);
+        free(first);
+        def->flow.speed = 4.5;
+        def->flow.incidence = num_rad(2.0);
+        def->solver.modal_damping = 0.01;
+        struct sim *alone = run(def), *shared = NULL;
+        struct failure fail = {0};
+        assert_ok(sim_create_like(def, like, &shared, &fail));
+        assert_ok(sim_run(shared, NULL, &fail));
+        const struct sim_result *a = sim_result(alone), *b = sim_result(shared);
+        assert_memory_equal(&a->means, &b->means, sizeof a->means);
+        assert_memory_equal(&a->tip_twist, &b->tip_twist, sizeof a->tip_twist);
+        assert_memory_equal(&a->section, &b->section, sizeof a->section);
+        assert_memory_equal(a->mode, b->mode, sizeof a->mode);
+        assert_true(a->means.tip_plunge > sim_result(like)->means.tip_plunge * 0.1);
+        assert_true(a->means.tip_plunge < sim_result(like)->means.tip_plunge * 0.9);
+        sim_destroy(shared);
+        sim_destroy(alone);
+        sim_destroy(like);
+        free(def);
+    }
+}
+
 static void the_report_hangs_together(void **state)
 {
     (void)state;
@@ -317,6 +355,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_report_hangs_together),
+        cmocka_unit_test(a_structure_serves_many_runs),
         cmocka_unit_test(stall_is_counted),
         cmocka_unit_test(wash_follows_the_ply_angle),
         cmocka_unit_test(modes_are_labelled),
