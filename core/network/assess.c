@@ -55,50 +55,65 @@ static double range_of(const double *x, int n)
     return most - least;
 }
 
-static void compare(const struct flow_record *r, const struct window *w, const double *x,
-                    const double *steady, const struct network *net, struct assessment *a)
+static void compare(const struct flow_record *r, const struct window *w, const double *steady,
+                    const double *model, struct assessment *a)
 {
-    int outside = 0;
     for (int i = w->from; i < r->n; i++) {
-        double y[NET_OUT_COUNT];
-        outside += network_eval(net, 1, x + num_at(0, i, NET_IN_COUNT), y);
         const double cl = r->value[num_at(i, FLOW_CL, r->n)];
         const double cm = r->value[num_at(i, FLOW_CM, r->n)];
         const double *s = steady + num_at(0, i, NET_OUT_COUNT);
-        const double cl_net = s[NET_OUT_CL] + y[NET_OUT_CL];
-        const double cm_net = s[NET_OUT_CM] + y[NET_OUT_CM];
-        a->network_cl += num_sq(cl_net - cl);
-        a->network_cm += num_sq(cm_net - cm);
+        const double *m = model + num_at(0, i, NET_OUT_COUNT);
+        a->network_cl += num_sq(m[NET_OUT_CL] - cl);
+        a->network_cm += num_sq(m[NET_OUT_CM] - cm);
         a->steady_cl += num_sq(s[NET_OUT_CL] - cl);
         a->steady_cm += num_sq(s[NET_OUT_CM] - cm);
         add_work(r, w, i, cl, cm, &a->record);
-        add_work(r, w, i, cl_net, cm_net, &a->network);
+        add_work(r, w, i, m[NET_OUT_CL], m[NET_OUT_CM], &a->network);
         add_work(r, w, i, s[NET_OUT_CL], s[NET_OUT_CM], &a->steady);
     }
     double *const square[] = {&a->network_cl, &a->network_cm, &a->steady_cl, &a->steady_cm};
     for (size_t k = 0; k < sizeof square / sizeof square[0]; k++) {
         *square[k] = sqrt(*square[k] / w->n);
     }
-    a->outside_hull = (double)outside / w->n;
 }
 
-enum status assess_record(const struct flow_record *r, double window, const struct polar *polar,
-                          const struct network *net, struct assessment *out)
+enum status assess_coefficients(const struct flow_record *r, const double *steady,
+                                const double *model, struct assessment *out)
 {
     const struct window w = window_of(r);
     if (w.n < 1) {
         return ST_INVALID;
     }
-    double *x = malloc((size_t)r->n * (NET_IN_COUNT + NET_OUT_COUNT) * sizeof *x);
+    *out = (struct assessment){.range_cl = range_of(r->value + num_at(w.from, FLOW_CL, r->n), w.n),
+                               .range_cm = range_of(r->value + num_at(w.from, FLOW_CM, r->n), w.n)};
+    compare(r, &w, steady, model, out);
+    return ST_OK;
+}
+
+enum status assess_record(const struct flow_record *r, double window, const struct polar *polar,
+                          const struct network *net, struct assessment *out)
+{
+    const size_t n = (size_t)r->n;
+    const int first = flow_record_first(r);
+    double *x = malloc(n * (NET_IN_COUNT + 2 * NET_OUT_COUNT) * sizeof *x);
     if (x == NULL) {
         return ST_NO_MEMORY;
     }
-    double *steady = x + (ptrdiff_t)r->n * NET_IN_COUNT;
+    double *steady = x + n * NET_IN_COUNT, *model = steady + n * NET_OUT_COUNT;
+    int outside = 0;
     flow_record_inputs(r, window, x);
     flow_record_steady(r, polar, steady);
-    *out = (struct assessment){.range_cl = range_of(r->value + num_at(w.from, FLOW_CL, r->n), w.n),
-                               .range_cm = range_of(r->value + num_at(w.from, FLOW_CM, r->n), w.n)};
-    compare(r, &w, x, steady, net, out);
+    for (int i = first; i < r->n; i++) {
+        double *y = model + num_at(0, i, NET_OUT_COUNT);
+        outside += network_eval(net, 1, x + num_at(0, i, NET_IN_COUNT), y);
+        for (int o = 0; o < NET_OUT_COUNT; o++) {
+            y[o] += steady[num_at(o, i, NET_OUT_COUNT)];
+        }
+    }
+    const enum status st = assess_coefficients(r, steady, model, out);
+    if (st == ST_OK) {
+        out->outside_hull = (double)outside / (r->n - first);
+    }
     free(x);
-    return ST_OK;
+    return st;
 }

@@ -26,6 +26,10 @@ struct assessment {
  * c_p = c_m alpha_dot c/V that its misprint stands for and that of the plunge beside it. */
 double assess_energy_error(const struct assess_work *model, const struct assess_work *record);
 
+/* Everything but outside_hull, of coefficients that any model gives: steady and model
+ * (NET_OUT_COUNT x n) at every sample. ST_INVALID: no sample behind the start. */
+MUST_CHECK enum status assess_coefficients(const struct flow_record *r, const double *steady,
+                                           const double *model, struct assessment *out);
 /* ST_NO_MEMORY, or the record has no sample behind its start: ST_INVALID. */
 MUST_CHECK enum status assess_record(const struct flow_record *r, double window,
                                      const struct polar *polar, const struct network *net,

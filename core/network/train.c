@@ -62,11 +62,33 @@ void train_def_check(const struct train_def *def, int n_hidden, struct failure_l
     }
 }
 
+enum status train_curve_init(int epochs, struct train_curve *c)
+{
+    *c = (struct train_curve){.trained = calloc((size_t)epochs + 1, sizeof(double)),
+                              .held = calloc((size_t)epochs + 1, sizeof(double))};
+    if (c->trained == NULL || c->held == NULL) {
+        train_curve_done(c);
+        return ST_NO_MEMORY;
+    }
+    return ST_OK;
+}
+
 void train_curve_done(struct train_curve *c)
 {
     free(c->trained);
     free(c->held);
     *c = (struct train_curve){0};
+}
+
+bool train_curve_add(struct train_curve *c, int patience, double trained, double held)
+{
+    const int i = c->n++;
+    c->trained[i] = trained;
+    c->held[i] = held;
+    if (i == 0 || held < (1.0 - better) * c->held[c->best]) {
+        c->best = i;
+    }
+    return i - c->best >= patience;
 }
 
 bool train_is_cancelled(const struct sim_control *control, int epoch, int epochs)
@@ -85,14 +107,11 @@ bool train_note(const struct train_problem *problem, const struct train_def *def
 {
     const double held =
         perceptron_error(&problem->shape, p, problem->n_held, problem->held_x, problem->held_t);
-    const int i = curve->n++;
-    curve->trained[i] = trained;
-    curve->held[i] = held;
-    if (i == 0 || held < (1.0 - better) * curve->held[curve->best]) {
-        curve->best = i;
+    const bool ended = train_curve_add(curve, def->patience, trained, held);
+    if (curve->best == curve->n - 1) {
         memcpy(best, p, (size_t)perceptron_count(&problem->shape) * sizeof *best);
     }
-    return i - curve->best >= def->patience;
+    return ended;
 }
 
 /* Rows of the net's inputs and outputs out of the samples, scaled: x and t in one block. */
@@ -139,10 +158,9 @@ static enum status optimise(const struct train_problem *problem, const struct tr
                             struct train_curve *curve)
 {
     const size_t count = (size_t)perceptron_count(&problem->shape);
-    struct train_curve c = {.trained = calloc((size_t)def->epochs + 1, sizeof(double)),
-                            .held = calloc((size_t)def->epochs + 1, sizeof(double))};
+    struct train_curve c = {0};
     double *p = malloc(2 * count * sizeof *p);
-    enum status st = p != NULL && c.trained != NULL && c.held != NULL ? ST_OK : ST_NO_MEMORY;
+    enum status st = p != NULL ? train_curve_init(def->epochs, &c) : ST_NO_MEMORY;
     if (st == ST_OK) {
         double *best = p + count;
         perceptron_start(&problem->shape, def->seed, p);

@@ -39,7 +39,12 @@ struct train_curve {
     int best; /* entry with the least error of the records held out: the network that is kept */
     double *trained, *held; /* owned (epochs + 1) */
 };
+/* Room for so many epochs and the start. */
+MUST_CHECK enum status train_curve_init(int epochs, struct train_curve *c);
 void train_curve_done(struct train_curve *c);
+/* Notes the errors after an epoch: c->best is c->n - 1 where that was the best so far. True when
+ * the patience has run out. */
+bool train_curve_add(struct train_curve *c, int patience, double trained, double held);
 
 /* What an optimiser works on: scaled samples, x (n_in x n) and t (n_out x n), borrowed. */
 struct train_problem {
