@@ -1,0 +1,22 @@
+/* api/study_axes.h
+ * What is varied in a study: checks, order of the cells, values of a cell. Inside api only. */
+#ifndef AEROM_API_STUDY_AXES_H
+#define AEROM_API_STUDY_AXES_H
+
+#include "api/study_fields.h"
+
+/* Pointers, ranges, zipped axes, number of cells; problems go to the reader's list. Sets the
+ * dimensions. ST_NO_MEMORY or ST_OK. */
+MUST_CHECK enum status study_axes_check(struct study *s, struct reader *r);
+
+/* Tries each value alone in the case, then the corners; the identities of the cases tried are added
+ * to `identity`. ST_NO_MEMORY or ST_OK. */
+MUST_CHECK enum status study_axes_try(struct study *s, struct reader *r, struct json_out *identity);
+
+/* Sets value k of an axis in the tree; false when out of memory. */
+bool study_axis_set(const struct study_axis *a, int k);
+
+/* Sets the values of a cell in the tree; false when out of memory. */
+bool study_axes_set(struct study *s, int cell);
+
+#endif
