@@ -230,21 +230,30 @@ def plunge_anchors():
     yield sine("pitchplunge_m2.5_a4_w0.15_f0.125", "sine_both_slow", 2.5, 0.125, 4, 0.15, 90.0)
 
 
+def both_checks():
+    """Pitch with plunge at half the step and on the coarse mesh: the work of the pitch is a small
+    difference there."""
+    for suffix, settings in (("step0.01", dict(step=0.01)), ("coarse", dict(mesh="coarse", step=0.01)),
+                             ("step0.005", dict(step=0.005, cycles=2, end=26.0))):
+        yield sine("pitchplunge_m2.5_a4_w0.15_f0.125_" + suffix, "check_sine_both", 2.5, 0.125, 4, 0.15,
+                   90.0, **settings)
+
+
 def document_rows():
-    """All rows in order. Within a block the i-th of n rows has the rank x = (i + 1/2) / n, drawn forward
-    to a x^b where the polar waits for it; the angles at mid-channel come before everything."""
-    forward = {"static": (0.0, 1.0), "static_coarse": (0.04, 1.0), "static_plunge": (0.05, 1.0),
-               "check_static": (0.15, 1.0)}
+    """All rows in order. Within a block the i-th of n rows has the rank x = (i + 1/2) / n, turned into
+    a + b x: forward where others wait for it; the angles at mid-channel come before everything, the
+    other Reynolds numbers after everything."""
+    place = {"static": (0.0, 0.0), "static_coarse": (0.0, 0.04), "static_plunge": (0.0, 0.05),
+             "check_static": (0.0, 0.15), "check_sine_both": (0.0, 0.1), "reynolds": (1.0, 1.0)}
     blocks = {}
     for source in (statics(), anchors("sine_pitch_slow"), plunge_anchors(), sines(), broadband(),
-                   statics_off_centre(), statics_coarse(), slope_checks(), reynolds(), motion_checks()):
+                   statics_off_centre(), statics_coarse(), slope_checks(), reynolds(), motion_checks(), both_checks()):
         for row in source:
             blocks.setdefault(row["block"], []).append(row)
     ranked = []
     for k, (block, rows) in enumerate(blocks.items()):
-        factor, power = forward.get(block, (1.0, 1.0))
-        ranked += [(factor * ((i + 0.5) / len(rows)) ** power, k, i, row)
-                   for i, row in enumerate(rows)]
+        first, factor = place.get(block, (0.0, 1.0))
+        ranked += [(first + factor * (i + 0.5) / len(rows), k, i, row) for i, row in enumerate(rows)]
     return [entry[3] for entry in sorted(ranked, key=lambda entry: entry[:3])]
 
 
