@@ -114,6 +114,7 @@ static void write_counters(struct json_out *out, const struct sim_counters *n)
     json_object_begin(out);
     json_key_integer(out, "outside_polar", n->outside_polar);
     json_key_integer(out, "outside_hull", n->outside_hull);
+    json_key_integer(out, "load_alternations", n->load_alternations);
     json_key_integer(out, "not_converged", n->not_converged);
     json_key_integer(out, "lifting_line_iterations", n->lifting_line_iterations);
     json_key_number(out, "lifting_line_residual", n->lifting_line_residual);

@@ -1,5 +1,6 @@
 #include "core/sim.h"
 
+#include "core/analysis/doubt.h"
 #include "core/analysis/equilibrium.h"
 #include "core/coupling/apparent_mass.h"
 #include "core/coupling/excitation.h"
@@ -303,6 +304,7 @@ static void report_march(const struct sim *s, const struct march *march, struct 
     out->counters = (struct sim_counters){
         .outside_polar = w->counters.outside_polar,
         .outside_hull = w->counters.outside_hull,
+        .load_alternations = doubt_alternations(&s->record, 0),
         .not_converged = w->counters.not_converged,
         .lifting_line_iterations = w->counters.lifting_line_iterations,
         .inner_steps = march->rk4.inner_steps,

@@ -60,9 +60,10 @@ struct mode_result {
 };
 
 struct sim_counters {
-    long outside_polar; /* station-steps whose angle or plunge left the polar */
-    long outside_hull;  /* station-steps outside the training hull of the network */
-    long not_converged; /* steps whose lifting line missed its tolerance */
+    long outside_polar;     /* station-steps whose angle or plunge left the polar */
+    long outside_hull;      /* station-steps outside the training hull of the network */
+    long load_alternations; /* steps at which the load turned back: core/analysis/doubt.h */
+    long not_converged;     /* steps whose lifting line missed its tolerance */
     long lifting_line_iterations;
     long inner_steps;              /* of rk4_adaptive */
     double lifting_line_residual;  /* largest, in c_l */

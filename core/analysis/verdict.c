@@ -1,10 +1,12 @@
 #include "core/analysis/verdict.h"
 
 #include "core/analysis/damping.h"
+#include "core/analysis/doubt.h"
 #include "core/num.h"
 
 #include <assert.h>
 #include <stdio.h>
+#include <string.h>
 
 static const double growth_tolerance = 0.05; /* ln of the ratio of fluctuations, third to third */
 static const double twist_floor = 3.5e-4;    /* rms twist that counts as rest: 0.02 degrees [rad] */
@@ -177,7 +179,8 @@ static enum verdict of_drive(const struct march *march, double frequency, int fi
     return change <= repetition_limit ? VERDICT_FORCED : VERDICT_INDETERMINATE;
 }
 
-enum verdict verdict_of(const struct march *march, char reason[VERDICT_REASON])
+/* What the histories say, whoever made them. */
+static enum verdict of_histories(const struct march *march, char reason[VERDICT_REASON])
 {
     const struct model *m = march->model;
     const struct record *r = march->record;
@@ -236,4 +239,34 @@ enum verdict verdict_of(const struct march *march, char reason[VERDICT_REASON])
     }
     const bool changed = fabs(log(lead->rms[2] / fmax(lead->rms[0], 1e-300))) > 0.2;
     return changed ? VERDICT_LIMIT_CYCLE : VERDICT_INDETERMINATE;
+}
+
+enum verdict verdict_of(const struct march *march, char reason[VERDICT_REASON])
+{
+    const struct doubt d = doubt_of(march);
+    const enum verdict v = of_histories(march, reason);
+    if (d.alternations > doubt_alternations_max) {
+        (void)snprintf(reason, VERDICT_REASON,
+                       "the load turned back at %.0f %% of the steps of the last third: the march "
+                       "follows its time step, not the flow%s; its histories alone would say %s",
+                       100.0 * d.alternations,
+                       march->model->network != NULL ? " (a network that sees an acceleration?)"
+                                                     : "",
+                       verdict_name(v));
+        return VERDICT_INDETERMINATE;
+    }
+    if (d.outside_hull > doubt_outside_hull_max) {
+        (void)snprintf(reason, VERDICT_REASON,
+                       "%.3g %% of the evaluations of the network are outside its training hull; "
+                       "the histories alone would say %s",
+                       100.0 * d.outside_hull, verdict_name(v));
+        return VERDICT_INDETERMINATE;
+    }
+    if (d.outside_hull > doubt_outside_hull_told) {
+        const size_t used = strlen(reason);
+        (void)snprintf(reason + used, VERDICT_REASON - used,
+                       "; %.3g %% of the evaluations of the network outside its training hull",
+                       100.0 * d.outside_hull);
+    }
+    return v;
 }

@@ -21,6 +21,8 @@ enum verdict { VERDICT_LIST(VERDICT_ENUM) VERDICT_COUNT };
 const char *verdict_name(enum verdict v);
 
 /* Rules, in this order (thirds are of the record; fluctuation is rms about the mean):
+ *  - the load turns back at most steps of the last third, or most evaluations of the network are
+ *    outside its training hull: indeterminate (core/analysis/doubt.h);
  *  - stopped by amplitude or a number that is not finite: the last period of the first mode swings
  *    to and fro -> flutter (stall_flutter if stalled), else divergence; indeterminate when the
  *    first mode has fewer than VERDICT_STEPS time steps a period;
@@ -36,7 +38,7 @@ const char *verdict_name(enum verdict v);
  *    from the first third, else indeterminate;
  *  - it decays or is below the floor: divergence when the span sits at angles outside the polar,
  * else stable. `reason` receives one sentence with the numbers. */
-enum { VERDICT_STEPS = 8, VERDICT_PERIODS = 3, VERDICT_REASON = 256 };
+enum { VERDICT_STEPS = 8, VERDICT_PERIODS = 3, VERDICT_REASON = 384 };
 enum verdict verdict_of(const struct march *march, char reason[VERDICT_REASON]);
 
 #endif

@@ -1,6 +1,8 @@
 /* Verdicts on made-up histories: a record is filled by hand, nothing is marched. */
+#include "core/analysis/doubt.h"
 #include "core/analysis/verdict.h"
 #include "core/num.h"
+#include "tests/support/fixture.h"
 #include "tests/support/unit.h"
 
 #include <stdlib.h>
@@ -14,6 +16,7 @@ struct history {
     enum stop_reason stop;
     double outside; /* share of the steps outside the polar */
     double duration;
+    double jitter; /* of c_l, with the other sign at every step */
 };
 
 struct march_of {
@@ -40,6 +43,7 @@ static void build(const struct history *h, double dt, struct march_of *out)
         const double y = size * cos(2.0 * NUM_PI * h->hz * t) + h->drift * t;
         out->record.history[i + n * HISTORY_PLUNGE] = 0.01 * y;
         out->record.history[i + n * HISTORY_TWIST] = y;
+        out->record.history[i + n * HISTORY_CL] = 5.0 * y + (i % 2 == 0 ? 1.0 : -1.0) * h->jitter;
         out->record.stalled[i] = i >= h->stalled_from * n;
     }
     out->march = (struct march){.model = &out->model,
@@ -70,39 +74,49 @@ static void table(void **state)
         struct history history;
         enum verdict verdict;
     } row[] = {
-        {"decays", {0.1, -1.0, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0}, VERDICT_STABLE},
-        {"rests", {1e-6, 0.0, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0}, VERDICT_STABLE},
+        {"decays", {0.1, -1.0, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0, 0}, VERDICT_STABLE},
+        {"rests", {1e-6, 0.0, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0, 0}, VERDICT_STABLE},
         {"never disturbed, but its noise grows",
-         {1e-13, 0.5, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0},
+         {1e-13, 0.5, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0, 0},
          VERDICT_INDETERMINATE},
-        {"decays while stalled", {0.1, -1.0, 4.0, 0, 0, 0, STOP_DURATION, 0, 3.0}, VERDICT_STABLE},
-        {"grows", {0.01, 1.0, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0}, VERDICT_FLUTTER},
+        {"decays while stalled",
+         {0.1, -1.0, 4.0, 0, 0, 0, STOP_DURATION, 0, 3.0, 0},
+         VERDICT_STABLE},
+        {"grows", {0.01, 1.0, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0, 0}, VERDICT_FLUTTER},
         {"grows, stalled",
-         {0.01, 1.0, 4.0, 0, 0, 0.5, STOP_DURATION, 0, 3.0},
+         {0.01, 1.0, 4.0, 0, 0, 0.5, STOP_DURATION, 0, 3.0, 0},
          VERDICT_STALL_FLUTTER},
-        {"stays, stalled", {0.1, 0, 4.0, 0, 0, 0, STOP_DURATION, 0, 3.0}, VERDICT_STALL_FLUTTER},
+        {"stays, stalled", {0.1, 0, 4.0, 0, 0, 0, STOP_DURATION, 0, 3.0, 0}, VERDICT_STALL_FLUTTER},
         {"grew to a limit",
-         {0.001, 3.0, 4.0, 0, 0.1, 2.0, STOP_DURATION, 0, 6.0},
+         {0.001, 3.0, 4.0, 0, 0.1, 2.0, STOP_DURATION, 0, 6.0, 0},
          VERDICT_LIMIT_CYCLE},
         {"neither grows nor decays",
-         {0.1, 0, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0},
+         {0.1, 0, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0, 0},
          VERDICT_INDETERMINATE},
-        {"too short", {0.1, -1.0, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 0.7}, VERDICT_INDETERMINATE},
-        {"runs away", {0, 0, 4.0, 1.0, 0, 2.0, STOP_AMPLITUDE, 0, 1.0}, VERDICT_DIVERGENCE},
-        {"runs away at once", {0, 0, 4.0, 9.0, 0, 2.0, STOP_AMPLITUDE, 0, 0.1}, VERDICT_DIVERGENCE},
-        {"swings out", {0.01, 4.0, 4.0, 0, 0, 2.0, STOP_AMPLITUDE, 0, 1.0}, VERDICT_FLUTTER},
+        {"too short", {0.1, -1.0, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 0.7, 0}, VERDICT_INDETERMINATE},
+        {"runs away", {0, 0, 4.0, 1.0, 0, 2.0, STOP_AMPLITUDE, 0, 1.0, 0}, VERDICT_DIVERGENCE},
+        {"runs away at once",
+         {0, 0, 4.0, 9.0, 0, 2.0, STOP_AMPLITUDE, 0, 0.1, 0},
+         VERDICT_DIVERGENCE},
+        {"swings out", {0.01, 4.0, 4.0, 0, 0, 2.0, STOP_AMPLITUDE, 0, 1.0, 0}, VERDICT_FLUTTER},
         {"swings out, not finite",
-         {0.01, 4.0, 4.0, 0, 0, 2.0, STOP_NOT_FINITE, 0, 1.0},
+         {0.01, 4.0, 4.0, 0, 0, 2.0, STOP_NOT_FINITE, 0, 1.0, 0},
          VERDICT_FLUTTER},
         {"swings out, stalled",
-         {0.01, 4.0, 4.0, 0, 0, 0.8, STOP_AMPLITUDE, 0, 1.0},
+         {0.01, 4.0, 4.0, 0, 0, 0.8, STOP_AMPLITUDE, 0, 1.0, 0},
          VERDICT_STALL_FLUTTER},
         {"sits outside the polar",
-         {0.1, -2.0, 4.0, 0, 0, 0, STOP_DURATION, 0.9, 3.0},
+         {0.1, -2.0, 4.0, 0, 0, 0, STOP_DURATION, 0.9, 3.0, 0},
          VERDICT_DIVERGENCE},
         {"stopped outside the polar",
-         {0.1, -2.0, 4.0, 0, 0, 0, STOP_OUTSIDE_POLAR, 0.3, 3.0},
+         {0.1, -2.0, 4.0, 0, 0, 0, STOP_OUTSIDE_POLAR, 0.3, 3.0, 0},
          VERDICT_DIVERGENCE},
+        {"decays, its load turns back at every step",
+         {0.1, -1.0, 4.0, 0, 0, 2.0, STOP_DURATION, 0, 3.0, 0.05},
+         VERDICT_INDETERMINATE},
+        {"swings out, its load turns back at every step",
+         {0.01, 4.0, 4.0, 0, 0, 2.0, STOP_AMPLITUDE, 0, 1.0, 0.5},
+         VERDICT_INDETERMINATE},
     };
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         const enum verdict v = verdict(&row[i].history, 1e-3);
@@ -134,6 +148,63 @@ static void tiny_records(void **state)
     }
 }
 
+/* Twice a period for an oscillation; every step for a zigzag. */
+static void steps_that_turn_back(void **state)
+{
+    (void)state;
+    struct history h = {.amplitude = 0.1, .hz = 4.0, .duration = 3.0};
+    struct march_of m;
+    build(&h, 1e-3, &m);
+    assert_int_equal(doubt_alternations(&m.record, 0), 23);
+    assert_true(doubt_of(&m.march).outside_hull == 0.0);
+    free(m.record.history);
+    free(m.record.stalled);
+    h.jitter = 0.05;
+    build(&h, 1e-3, &m);
+    assert_int_equal(doubt_alternations(&m.record, 0), 2999);
+    assert_near_rel(doubt_of(&m.march).alternations, 1.0, 1e-15);
+    free(m.record.history);
+    free(m.record.stalled);
+    /* What a lifting line leaves is no zigzag. */
+    h = (struct history){.amplitude = 1e-4, .sigma = -1.0, .hz = 4.0, .duration = 30.0};
+    h.jitter = 1e-8;
+    assert_int_equal(verdict(&h, 1e-3), VERDICT_STABLE);
+}
+
+/* The same history with a network that was asked ever farther outside its hull. */
+static void a_network_outside_its_hull(void **state)
+{
+    (void)state;
+    static const struct {
+        double share;
+        enum verdict verdict;
+        const char *word;
+    } row[] = {{0.0, VERDICT_STABLE, NULL},
+               {0.005, VERDICT_STABLE, NULL},
+               {0.2, VERDICT_STABLE, "20 % of the evaluations"},
+               {0.8, VERDICT_INDETERMINATE, "80 % of the evaluations"}};
+    const struct history h = {
+        .amplitude = 0.1, .sigma = -1.0, .hz = 4.0, .stalled_from = 2.0, .duration = 3.0};
+    struct network_def def = fixture_network(3, 1.0, 1);
+    struct workspace w = {0};
+    struct march_of m;
+    build(&h, 1e-3, &m);
+    assert_ok(network_create(&def, &m.model.network));
+    m.model.n_station = 10;
+    m.march.w = &w;
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        char reason[VERDICT_REASON] = "";
+        w.counters.outside_hull = lround(row[i].share * 10.0 * (m.march.steps + 1));
+        assert_int_equal(verdict_of(&m.march, reason), row[i].verdict);
+        assert_int_equal(strstr(reason, "hull") != NULL, row[i].word != NULL);
+        assert_true(row[i].word == NULL || strstr(reason, row[i].word) != NULL);
+    }
+    network_destroy(m.model.network);
+    network_def_done(&def);
+    free(m.record.history);
+    free(m.record.stalled);
+}
+
 static void names(void **state)
 {
     (void)state;
@@ -147,6 +218,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(table),
         cmocka_unit_test(tiny_records),
+        cmocka_unit_test(steps_that_turn_back),
+        cmocka_unit_test(a_network_outside_its_hull),
         cmocka_unit_test(names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
