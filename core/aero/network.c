@@ -5,24 +5,28 @@
 
 #include <assert.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* One block of LANES stations. x: scaled inputs, (n_in x LANES), lane fastest; y: (n_out x LANES).
- */
-typedef void (*network_kernel_fn)(const struct network *net, const lanes *x, lanes *y);
+/* Neurons evaluated side by side; the last group is filled up with neurons without weights. */
+enum { NETWORK_GROUP = 4 };
+
+/* What network_eval promises, but for the outputs that the network does not have. */
+typedef int (*network_kernel_fn)(const struct network *net, int n, const double *x, double *y);
 
 struct network {
-    int n_in, n_hidden, n_out;
+    int n_in, n_out, n_group;
     enum network_input input[LIMIT_NET_INPUTS];
     enum network_output output[LIMIT_NET_OUTPUTS];
     double in_offset[LIMIT_NET_INPUTS], in_factor[LIMIT_NET_INPUTS]; /* factor = 1/scale */
     double out_offset[LIMIT_NET_OUTPUTS], out_scale[LIMIT_NET_OUTPUTS];
     double hull_min[LIMIT_NET_INPUTS], hull_max[LIMIT_NET_INPUTS];
     network_kernel_fn kernel;
-    /* Per neuron: n_in weights, bias, n_out weights; read once from front to back. */
-    double *neuron; /* ((n_in + 1 + n_out) x n_hidden) */
+    /* Per group: n_in rows of weights, biases, n_out rows of output weights; read once from front
+     * to back. What enters the tanh carries its TANH_SCALE. */
+    double *neuron; /* (NETWORK_GROUP x (n_in + 1 + n_out) x n_group) */
     double b2[LIMIT_NET_OUTPUTS];
 };
 
@@ -82,46 +86,51 @@ void network_def_check(const struct network_def *def, const char *pointer, struc
     }
 }
 
-/* One pass over the neurons: hidden = tanh(w1 x + b1), y += w2 hidden. */
-static inline __attribute__((always_inline)) void evaluate_block(const struct network *net,
-                                                                 const lanes *x, lanes *y)
-{
-    const int n_in = net->n_in, n_out = net->n_out;
-    const double *weight = net->neuron;
-    const lanes zero = {0};
-    for (int o = 0; o < n_out; o++) {
-        y[o] = zero + net->b2[o];
-    }
-    for (int j = 0; j < net->n_hidden; j++) {
-        lanes v = zero + weight[n_in];
-        for (int i = 0; i < n_in; i++) {
-            v += weight[i] * x[i];
-        }
-        tanh_lanes(&v);
-        for (int o = 0; o < n_out; o++) {
-            y[o] += weight[n_in + 1 + o] * v;
-        }
-        weight += n_in + 1 + n_out;
-    }
-}
+#define KERNEL_PASTE(name, kernel) name##_##kernel
+#define KERNEL_JOIN(name, kernel) KERNEL_PASTE(name, kernel)
+#define KERNEL(name) KERNEL_JOIN(name, KERNEL_NAME)
 
-static void kernel_portable(const struct network *net, const lanes *x, lanes *y)
-{
-    evaluate_block(net, x, y);
-}
+#define KERNEL_NAME kernel_portable
+#define KERNEL_WIDTH 2
+#define KERNEL_TARGET
+#include "core/aero/network_kernel.inc"
+#undef KERNEL_NAME
+#undef KERNEL_WIDTH
+#undef KERNEL_TARGET
 
-SIMD_TARGET_AVX2 static void kernel_avx2(const struct network *net, const lanes *x, lanes *y)
-{
-    evaluate_block(net, x, y);
-}
+#define KERNEL_NAME kernel_avx2
+#define KERNEL_WIDTH 4
+#define KERNEL_TARGET SIMD_TARGET_AVX2
+#include "core/aero/network_kernel.inc"
+#undef KERNEL_NAME
+#undef KERNEL_WIDTH
+#undef KERNEL_TARGET
 
-SIMD_TARGET_AVX512 static void kernel_avx512(const struct network *net, const lanes *x, lanes *y)
-{
-    evaluate_block(net, x, y);
-}
+#define KERNEL_NAME kernel_avx512
+#define KERNEL_WIDTH 8
+#define KERNEL_TARGET SIMD_TARGET_AVX512
+#include "core/aero/network_kernel.inc"
 
 static const network_kernel_fn kernel_of_level[SIMD_LEVELS] = {kernel_portable, kernel_avx2,
                                                                kernel_avx512};
+
+/* The weights in the order of the kernels. */
+static void pack_neurons(const struct network_def *def, struct network *net)
+{
+    double *w = net->neuron;
+    for (int group = 0; group < net->n_group; group++) {
+        const int first = group * NETWORK_GROUP;
+        for (int row = 0; row <= def->n_in + def->n_out; row++) {
+            for (int j = first; j < first + NETWORK_GROUP; j++) {
+                const int o = row - def->n_in - 1;
+                *w++ = j >= def->n_hidden ? 0.0
+                       : o >= 0           ? def->w2[j + def->n_hidden * o]
+                       : o == -1          ? TANH_SCALE * def->b1[j]
+                                          : TANH_SCALE * def->w1[row + def->n_in * j];
+            }
+        }
+    }
+}
 
 enum status network_create(const struct network_def *def, struct network **out)
 {
@@ -130,18 +139,19 @@ enum status network_create(const struct network_def *def, struct network **out)
     assert(def->n_out >= 1);
     assert(def->n_out <= LIMIT_NET_OUTPUTS);
     const int per_neuron = def->n_in + 1 + def->n_out;
+    const int n_group = (def->n_hidden + NETWORK_GROUP - 1) / NETWORK_GROUP;
     struct network *net = calloc(1, sizeof *net);
     if (net == NULL) {
         return ST_NO_MEMORY;
     }
-    net->neuron = malloc((size_t)per_neuron * (size_t)def->n_hidden * sizeof *net->neuron);
+    net->neuron = malloc((size_t)(per_neuron * NETWORK_GROUP * n_group) * sizeof *net->neuron);
     if (net->neuron == NULL) {
         free(net);
         return ST_NO_MEMORY;
     }
     net->n_in = def->n_in;
-    net->n_hidden = def->n_hidden;
     net->n_out = def->n_out;
+    net->n_group = n_group;
     net->kernel = kernel_of_level[simd_level_of_machine()];
     for (int i = 0; i < def->n_in; i++) {
         net->input[i] = def->input[i];
@@ -156,16 +166,7 @@ enum status network_create(const struct network_def *def, struct network **out)
         net->out_scale[o] = def->out_scale[o];
         net->b2[o] = def->b2[o];
     }
-    double *w = net->neuron;
-    for (int j = 0; j < def->n_hidden; j++) {
-        for (int i = 0; i < def->n_in; i++) {
-            *w++ = def->w1[i + def->n_in * j];
-        }
-        *w++ = def->b1[j];
-        for (int o = 0; o < def->n_out; o++) {
-            *w++ = def->w2[j + def->n_hidden * o];
-        }
-    }
+    pack_neurons(def, net);
     *out = net;
     return ST_OK;
 }
@@ -180,32 +181,6 @@ void network_destroy(struct network *net)
 
 int network_eval(const struct network *net, int n, const double *x, double *y)
 {
-    lanes in[LIMIT_NET_INPUTS], result[LIMIT_NET_OUTPUTS];
-    int outside = 0;
-    for (int o = 0; o < NET_OUT_COUNT; o++) {
-        memset(y + (size_t)o * (size_t)n, 0, (size_t)n * sizeof *y);
-    }
-    for (int first = 0; first < n; first += LANES) {
-        const int used = n - first < LANES ? n - first : LANES;
-        bool out_of_hull[LANES] = {false};
-        for (int i = 0; i < net->n_in; i++) {
-            const double *row = x + (size_t)net->input[i] * (size_t)n + first;
-            for (int l = 0; l < LANES; l++) {
-                const double value = row[l < used ? l : 0]; /* idle lanes repeat the first */
-                in[i][l] = (value - net->in_offset[i]) * net->in_factor[i];
-                out_of_hull[l] |= !(value >= net->hull_min[i] && value <= net->hull_max[i]);
-            }
-        }
-        net->kernel(net, in, result);
-        for (int o = 0; o < net->n_out; o++) {
-            double *row = y + (size_t)net->output[o] * (size_t)n + first;
-            for (int l = 0; l < used; l++) {
-                row[l] = result[o][l] * net->out_scale[o] + net->out_offset[o];
-            }
-        }
-        for (int l = 0; l < used; l++) {
-            outside += out_of_hull[l];
-        }
-    }
-    return outside;
+    memset(y, 0, (size_t)(NET_OUT_COUNT * n) * sizeof *y);
+    return net->kernel(net, n, x, y);
 }

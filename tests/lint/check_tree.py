@@ -64,7 +64,7 @@ def walk(root, folders=None):
 
 
 def sources(root):
-    return (p for p in walk(root, CODE_FOLDERS) if p.suffix in (".c", ".h"))
+    return (p for p in walk(root, CODE_FOLDERS) if p.suffix in (".c", ".h", ".inc"))
 
 
 def lines_of(path):
