@@ -151,9 +151,8 @@ static enum status identify(struct api_case *c)
     field_write(&identity, case_fields, kind, c);
     json_string(&identity, AEROM_CORE_VERSION);
     write_materials(&identity, c);
-    const bool flows = case_def_flows(&c->def);
-    json_string(&identity, flows ? c->def.aero.polar->hash : NULL);
-    const bool moves = case_kind_flows(c->def.kind);
+    json_string(&identity, case_def_has_polar(&c->def) ? c->def.aero.polar->hash : NULL);
+    const bool moves = case_kind_is_dynamic(c->def.kind);
     json_string(&identity, moves && c->def.aero.network != NULL ? c->def.aero.network->hash : NULL);
     const bool ok = !identity.failed && c->canonical != NULL;
     if (ok) {
@@ -194,7 +193,7 @@ enum status api_case_from_tree(const struct library *lib, const struct cJSON *tr
     if (r.kind != CASE_OF_NO_KIND && problems->count < FAILURE_LIST_MAX) {
         st = check_physics(&c->def, prefix, problems);
     }
-    if (st == ST_OK && problems->total == before) {
+    if (st == ST_OK && problems->total == before && case_kind_has_beam(c->def.kind)) {
         st = try_sections(&c->def, prefix, problems);
     }
     if (st == ST_OK && problems->total > before) {
@@ -244,6 +243,7 @@ void api_case_destroy(struct api_case *c)
 {
     if (c != NULL) {
         entry_set_done(&c->local);
+        motion_entry_done(&c->motion);
         free(c->station);
         free(c->canonical);
         free(c);

@@ -28,9 +28,13 @@ static const struct field_range speed_tolerance = {.min = 1e-12, .max = 0.1};
 static const struct field_range sampling = {.min = 1, .max = LIMIT_STEPS};
 
 /* By the enums of core. */
-const char *const case_kind_names[] = {
-    [CASE_SIMULATION] = "simulation", [CASE_MODES] = "modes",         [CASE_SECTION] = "section",
-    [CASE_STATIC] = "static",         [CASE_STABILITY] = "stability", NULL};
+const char *const case_kind_names[] = {[CASE_SIMULATION] = "simulation",
+                                       [CASE_MODES] = "modes",
+                                       [CASE_SECTION] = "section",
+                                       [CASE_STATIC] = "static",
+                                       [CASE_STABILITY] = "stability",
+                                       [CASE_LOOP] = "loop",
+                                       NULL};
 const char *const dynamic_names[] = {[DYNAMIC_NONE] = "none",
                                      [DYNAMIC_NETWORK] = "network",
                                      [DYNAMIC_ATTACHED] = "attached",
@@ -74,7 +78,11 @@ enum {
     MOVING = CASE_IN_SIMULATION | CASE_IN_STABILITY,
     MODAL = CASE_IN_SIMULATION | CASE_IN_MODES | CASE_IN_STABILITY,
     STATIC = CASE_IN_STATIC,
-    STABILITY = CASE_IN_STABILITY
+    STABILITY = CASE_IN_STABILITY,
+    LOOP = CASE_IN_LOOP,
+    WITH_POLAR = FLOWS | LOOP,
+    WITH_DYNAMIC = MOVING | LOOP,
+    BEAM = CASE_WITH_BEAM | CASE_IN_SECTION
 };
 
 static bool is_calm(const void *base)
@@ -133,10 +141,10 @@ static const struct field aerodynamics_fields[] = {
     {.key = "polar",
      .kind = FIELD_CUSTOM,
      .required = true,
-     .kinds = FLOWS,
+     .kinds = WITH_POLAR,
      .read = case_read_polar,
      .write = case_write_polar},
-    OBJECT("dynamic", dynamic_fields, .kinds = MOVING),
+    OBJECT("dynamic", dynamic_fields, .kinds = WITH_DYNAMIC),
     OBJECT("lifting_line", lifting_line_fields, .kinds = FLOWS, .nullable = true,
            .offset = AT(def.aero.lifting_line)),
     {0},
@@ -249,6 +257,11 @@ static bool has_no_stream(const void *base)
     return !case_def_flows(&((const struct api_case *)base)->def);
 }
 
+static bool has_no_polar(const void *base)
+{
+    return !case_def_has_polar(&((const struct api_case *)base)->def);
+}
+
 /* Definitions before what refers to them. */
 const struct field case_fields[] = {
     {.key = "schema_version",
@@ -264,27 +277,37 @@ const struct field case_fields[] = {
      .size = sizeof((struct case_def *)0)->name},
     {.key = "materials",
      .kind = FIELD_CUSTOM,
+     .kinds = BEAM,
      .omit = case_has_no_own_material,
      .read = case_read_materials,
      .write = case_write_materials},
     {.key = "polars",
      .kind = FIELD_CUSTOM,
-     .kinds = FLOWS,
+     .kinds = WITH_POLAR,
      .omit = case_has_no_own_polar,
      .read = case_read_polars,
      .write = case_write_polars},
     {.key = "networks",
      .kind = FIELD_CUSTOM,
-     .kinds = MOVING,
+     .kinds = WITH_DYNAMIC,
      .omit = case_has_no_own_network,
      .read = case_read_networks,
      .write = case_write_networks},
-    OBJECT("beam", beam_fields, .required = true, .finish = beam_finish),
+    OBJECT("beam", beam_fields, .required = true, .kinds = BEAM, .finish = beam_finish),
     OBJECT("loads", loads_fields, .kinds = STATIC),
     OBJECT("flow", flow_fields, .required = true, .optional = STATIC, .kinds = FLOWS,
            .omit = has_no_stream),
     OBJECT("aerodynamics", aerodynamics_fields, .required = true, .optional = STATIC,
-           .kinds = FLOWS, .finish = aerodynamics_finish, .omit = has_no_stream),
+           .kinds = WITH_POLAR, .finish = aerodynamics_finish, .omit = has_no_polar),
+    {.key = "motion",
+     .kind = FIELD_VARIANT,
+     .required = true,
+     .kinds = LOOP,
+     .offset = AT(motion),
+     .names = motion_type_names,
+     .variants = motion_variants,
+     .choose = motion_choose,
+     .finish = motion_finish},
     OBJECT("solver", solver_fields, .required = true, .kinds = MODAL),
     OBJECT("stability", stability_fields, .required = true, .kinds = STABILITY),
     OBJECT("output", output_fields, .kinds = SIMULATION | STATIC),

@@ -6,12 +6,14 @@
 #include "api/case.h"
 #include "api/entry.h"
 #include "api/field.h"
+#include "api/motion_fields.h"
 
 struct api_case {
     int schema_version;
     struct case_def def;
     struct station_def *station; /* (def.beam.n_station), owned; def.beam points here */
     struct entry_set local;      /* definitions inside the case */
+    struct motion_entry motion;  /* kind loop; def.loop points here */
     const struct library *library;
     char *canonical;
     char hash[LIMIT_HASH];
@@ -24,6 +26,7 @@ enum case_group {
     CASE_IN_SECTION = 1u << CASE_SECTION,
     CASE_IN_STATIC = 1u << CASE_STATIC,
     CASE_IN_STABILITY = 1u << CASE_STABILITY,
+    CASE_IN_LOOP = 1u << CASE_LOOP,
     CASE_WITH_BEAM = CASE_IN_SIMULATION | CASE_IN_MODES | CASE_IN_STATIC | CASE_IN_STABILITY,
     CASE_LABEL = 1u << 8,
     CASE_OF_NO_KIND = 1u << 9 /* only what every kind needs can be asked for */

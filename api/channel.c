@@ -87,9 +87,25 @@ double channel_scale(enum channel channel)
     return channel_table[channel].angle ? 180.0 / NUM_PI : 1.0;
 }
 
-bool channel_column(const struct case_def *def, int column, char name[64], enum channel *channel)
+/* What sim_column holds of a section in prescribed motion. */
+static bool loop_column(const struct case_def *def, int column, char name[64], double *scale)
+{
+    static const char *const names[] = {"alpha_deg", "w", "cl", "cm", "cd"};
+    const int n = polar_def_has_drag(def->aero.polar) ? 5 : 4;
+    if (column >= n) {
+        return false;
+    }
+    (void)snprintf(name, 64, "%s", names[column]);
+    *scale = column == 0 ? 180.0 / NUM_PI : 1.0;
+    return true;
+}
+
+bool channel_column(const struct case_def *def, int column, char name[64], double *scale)
 {
     assert(column >= 0);
+    if (def->kind == CASE_LOOP) {
+        return loop_column(def, column, name, scale);
+    }
     for (int i = 0; i < def->output.n_channel; i++) {
         const enum channel c = def->output.channel[i];
         const int n = case_def_channel_columns(def, c);
@@ -102,7 +118,7 @@ bool channel_column(const struct case_def *def, int column, char name[64], enum 
         } else {
             (void)snprintf(name, 64, "%s[%d]", channel_names[c], column + 1);
         }
-        *channel = c;
+        *scale = channel_scale(c);
         return true;
     }
     return false;

@@ -15,7 +15,8 @@ bool channel_parse(const char *name, enum channel *out);
 double channel_scale(enum channel channel);
 
 /* The columns a case records, in order: name of column j ("modal_amplitude[2]" for a vector
- * channel, counted from 1) and its channel. False past the last column. */
-bool channel_column(const struct case_def *def, int column, char name[64], enum channel *channel);
+ * channel, counted from 1) and the factor from the core's unit to the presented one. False past the
+ * last column. */
+bool channel_column(const struct case_def *def, int column, char name[64], double *scale);
 
 #endif

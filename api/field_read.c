@@ -272,14 +272,14 @@ void field_read_value(struct reader *r, const struct field *f, const struct cJSO
 static void read_member(struct reader *r, const struct field *f, const cJSON *json, void *base)
 {
     const bool applies = f->applies == NULL || f->applies(base);
-    const bool required = f->required && (f->optional & r->kind) == 0;
+    const bool counts = f->kinds == 0 || (f->kinds & r->kind) != 0;
+    const bool required = f->required && counts && (f->optional & r->kind) == 0;
     if (json != NULL && !applies) {
         reader_problem(r, "unexpected", "no such member with the other values", json,
                        "the member does not apply here");
     } else if (json != NULL || (f->kind == FIELD_OBJECT && required && applies)) {
         field_read_value(r, f, json, base);
-    } else if (required && f->kind != FIELD_OBJECT && applies && r->kind != 0 &&
-               (f->kinds == 0 || (f->kinds & r->kind) != 0)) {
+    } else if (required && f->kind != FIELD_OBJECT && applies && r->kind != 0) {
         reader_problem(r, "required", "a value", NULL, "\"%s\" is missing", f->key);
     }
 }

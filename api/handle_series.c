@@ -184,8 +184,9 @@ void handle_series(const struct api_call *call, struct api_response *res)
     if (!respond_find_job(call, res, &job)) {
         return;
     }
-    if (job.kind != CASE_SIMULATION) {
-        problem_response(res, PROBLEM_NO_DOCUMENT, "only a simulation records series", NULL, NULL);
+    if (!case_kind_records(job.kind)) {
+        problem_response(res, PROBLEM_NO_DOCUMENT, "jobs of this kind record no series", NULL,
+                         NULL);
         return;
     }
     if (!respond_require_done(res, &job)) {

@@ -183,8 +183,8 @@ static void write_reference(struct json_out *out, const char *key, const char *n
 
 static void write_identity(struct json_out *out, const struct result_view *v)
 {
-    const bool flows = case_def_flows(v->def), moves = case_kind_flows(v->def->kind);
-    const struct polar_def *polar = flows ? v->def->aero.polar : NULL;
+    const bool moves = case_kind_is_dynamic(v->def->kind);
+    const struct polar_def *polar = case_def_has_polar(v->def) ? v->def->aero.polar : NULL;
     const struct network_def *network = moves ? v->def->aero.network : NULL;
     json_key(out, "identity");
     json_object_begin(out);
@@ -211,13 +211,17 @@ static void write_summary(struct json_out *out, const struct result_view *v)
     } else if (v->def->kind == CASE_STABILITY) {
         result_stability_members(out, v);
         write_mode_list(out, v->r);
+    } else if (v->def->kind == CASE_LOOP) {
+        result_loop_members(out, v);
     } else {
         result_matrix_members(out, &v->r->section);
     }
-    json_key(out, "section");
-    json_object_begin(out);
-    result_section_members(out, &v->r->section);
-    json_object_end(out);
+    if (case_kind_has_beam(v->def->kind)) {
+        json_key(out, "section");
+        json_object_begin(out);
+        result_section_members(out, &v->r->section);
+        json_object_end(out);
+    }
     write_timing(out, v);
     write_identity(out, v);
     json_object_end(out);
@@ -244,11 +248,10 @@ const char *const *result_documents(enum case_kind kind)
     static const char *const section[] = {"summary", "section", NULL};
     static const char *const statics[] = {"summary", "static", "section", NULL};
     static const char *const stability[] = {"summary", "stability", "modes", "section", NULL};
-    static const char *const *const lists[] = {[CASE_SIMULATION] = simulation,
-                                               [CASE_MODES] = modes,
-                                               [CASE_SECTION] = section,
-                                               [CASE_STATIC] = statics,
-                                               [CASE_STABILITY] = stability};
+    static const char *const loop[] = {"summary", NULL};
+    static const char *const *const lists[] = {
+        [CASE_SIMULATION] = simulation, [CASE_MODES] = modes,         [CASE_SECTION] = section,
+        [CASE_STATIC] = statics,        [CASE_STABILITY] = stability, [CASE_LOOP] = loop};
     assert((unsigned)kind < sizeof lists / sizeof lists[0]);
     return lists[kind];
 }

@@ -32,6 +32,8 @@ void result_matrix_members(struct json_out *out, const struct section_result *s)
 void result_section_members(struct json_out *out, const struct section_result *s);
 /* Verdict, divergence, flutter, least damped oscillation. */
 void result_stability_members(struct json_out *out, const struct result_view *v);
+/* Work, shares of the steps outside polar and hull, extremes of the coefficients. */
+void result_loop_members(struct json_out *out, const struct result_view *v);
 /* Motion of the tip, reactions, first-ply failure. */
 void result_static_members(struct json_out *out, const struct result_view *v);
 

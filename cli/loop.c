@@ -11,6 +11,7 @@
 #include "core/num.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static bool find_dynamic(const struct options *o, struct sources *s, struct failure_list *problems,
                          struct loop_def *d)
@@ -62,11 +63,36 @@ static bool print(const struct loop_result *r, double start)
     return fflush(stdout) == 0 && !ferror(stdout);
 }
 
+/* The check speaks of the members of "motion". */
+static void name_options(struct failure_list *problems)
+{
+    static const struct {
+        const char *member, *option;
+    } names[] = {{"/motion", "--motion"},
+                 {"/motion/mean_deg", "--mean-deg"},
+                 {"/motion/amplitude_deg", "--amplitude-deg"},
+                 {"/motion/frequency_c_v", "--frequency"},
+                 {"/motion/plunge_c", "--plunge"},
+                 {"/motion/phase_deg", "--phase-deg"},
+                 {"/motion/cycles", "--cycles"},
+                 {"/motion/steps", "--steps"}};
+    for (int i = 0; i < problems->count; i++) {
+        struct failure *f = &problems->item[i];
+        for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
+            if (strcmp(f->pointer, names[k].member) == 0) {
+                (void)snprintf(f->pointer, sizeof f->pointer, "%s", names[k].option);
+                break;
+            }
+        }
+    }
+}
+
 static bool compute(const struct loop_def *d, double start, struct failure_list *problems)
 {
     struct loop_result r = {0};
     loop_def_check(d, problems);
     if (problems->count > 0) {
+        name_options(problems);
         report_failures(stderr, "loop", problems);
         return false;
     }

@@ -64,14 +64,13 @@ static bool series_of(const struct case_def *def, const struct sim *sim, struct 
     struct series_data data = {.step = r->sample_step, .n = r->n_sample};
     data.column = calloc((size_t)r->n_column + 1, sizeof *data.column);
     for (int j = 0; data.column != NULL && j < r->n_column; j++) {
-        enum channel channel = CHANNEL_COUNT;
+        double scale = 1.0;
         struct series_column *column = &data.column[j];
         column->value = calloc((size_t)r->n_sample + 1, sizeof *column->value);
-        if (column->value == NULL || !channel_column(def, j, column->name, &channel)) {
+        if (column->value == NULL || !channel_column(def, j, column->name, &scale)) {
             goto out;
         }
         data.n_column = j + 1;
-        const double scale = channel_scale(channel);
         const double *value = sim_column(sim, j);
         for (int i = 0; i < r->n_sample; i++) {
             column->value[i] = value[i] * scale;
@@ -164,8 +163,8 @@ int run_main(int argc, char **argv)
     if (o.document != NULL && !has_document(kind, o.document)) {
         goto out;
     }
-    if (o.series != NULL && kind != CASE_SIMULATION) {
-        (void)fprintf(stderr, "aerom: only a simulation has a series\n");
+    if (o.series != NULL && !case_kind_records(kind)) {
+        (void)fprintf(stderr, "aerom: a case of kind %s has no series\n", case_kind_name(kind));
         goto out;
     }
     done = compute(&o, c);

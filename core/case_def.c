@@ -38,6 +38,7 @@ void case_def_defaults(struct case_def *def)
                    .modal_window = 0.2},
     };
     section_def_defaults(SECTION_STRIP, &def->beam.section);
+    loop_def_defaults(&def->loop);
 }
 
 double case_def_driven_until(const struct case_def *def)
@@ -49,6 +50,15 @@ double case_def_driven_until(const struct case_def *def)
 bool case_def_flows(const struct case_def *def)
 {
     return case_kind_flows(def->kind) || (def->kind == CASE_STATIC && def->aero.polar != NULL);
+}
+
+struct loop_def case_def_loop(const struct case_def *def)
+{
+    struct loop_def d = def->loop;
+    d.polar = def->aero.polar;
+    d.dynamic = def->aero.dynamic;
+    d.network = def->aero.network;
+    return d;
 }
 
 int case_def_channel_columns(const struct case_def *def, enum channel channel)
@@ -130,6 +140,18 @@ static void check_flow(const struct case_def *def, struct failure_list *out)
     }
 }
 
+static void check_models(const struct aero_def *a, struct failure_list *out)
+{
+    if (a->polar == NULL) {
+        failure_set(failure_add(out), ST_INVALID, "/aerodynamics/polar", "missing",
+                    "the name of a polar", NULL, "a section in a stream needs a polar");
+    }
+    if (a->dynamic == DYNAMIC_NETWORK && a->network == NULL) {
+        failure_set(failure_add(out), ST_INVALID, "/aerodynamics/dynamic/name", "missing",
+                    "the name of a network", NULL, "the dynamic part asks for a network");
+    }
+}
+
 static void check_aero(const struct case_def *def, struct failure_list *out)
 {
     const struct aero_def *a = &def->aero;
@@ -147,14 +169,7 @@ static void check_aero(const struct case_def *def, struct failure_list *out)
                     "out_of_range", "more than beam.length_m", got,
                     "the far wall must stand beyond the tip");
     }
-    if (a->polar == NULL) {
-        failure_set(failure_add(out), ST_INVALID, "/aerodynamics/polar", "missing",
-                    "the name of a polar", NULL, "a simulation needs a polar");
-    }
-    if (a->dynamic == DYNAMIC_NETWORK && a->network == NULL) {
-        failure_set(failure_add(out), ST_INVALID, "/aerodynamics/dynamic/name", "missing",
-                    "the name of a network", NULL, "the dynamic part asks for a network");
-    }
+    check_models(a, out);
 }
 
 /* Drag and efficiency can only be recorded if the polar has drag. */
@@ -341,6 +356,12 @@ static void check_solver(const struct case_def *def, struct failure_list *out)
 
 void case_def_check(const struct case_def *def, struct failure_list *out)
 {
+    if (def->kind == CASE_LOOP) {
+        const struct loop_def d = case_def_loop(def);
+        check_models(&def->aero, out);
+        loop_def_check(&d, out);
+        return;
+    }
     beam_def_check_sections(&def->beam, out);
     if (def->kind != CASE_SECTION) {
         check_beam(def, out);

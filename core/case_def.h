@@ -6,10 +6,12 @@
 #ifndef AEROM_CORE_CASE_DEF_H
 #define AEROM_CORE_CASE_DEF_H
 
+#include "core/aero/dynamic.h"
 #include "core/aero/gust.h"
 #include "core/aero/lifting_line.h"
 #include "core/aero/network.h"
 #include "core/aero/polar.h"
+#include "core/loop_def.h"
 #include "core/section_def.h"
 
 #include <stdbool.h>
@@ -20,11 +22,9 @@ enum case_kind {
     CASE_SECTION,
     CASE_STATIC,
     CASE_STABILITY,
+    CASE_LOOP,
     CASE_KIND_COUNT
 };
-/* What is added to the steady polar: nothing; a network; the wake's lag and apparent mass; these
- * and the lags of stall. */
-enum dynamic_type { DYNAMIC_NONE, DYNAMIC_NETWORK, DYNAMIC_ATTACHED, DYNAMIC_STALL };
 enum integrator { INTEGRATOR_EXPONENTIAL, INTEGRATOR_RK4_ADAPTIVE };
 enum start_type { START_REST, START_EQUILIBRIUM, START_AMPLITUDES };
 
@@ -136,6 +136,7 @@ struct case_def {
     struct aero_def aero;
     struct solver_def solver;
     struct stability_def stability;
+    struct loop_def loop; /* the motion; what answers it stands in aero, see case_def_loop */
     struct output_def output;
 };
 
@@ -145,11 +146,37 @@ static inline bool case_kind_flows(enum case_kind kind)
     return kind == CASE_SIMULATION || kind == CASE_STABILITY;
 }
 
+/* Has a case of this kind a beam? All but a section in prescribed motion. */
+static inline bool case_kind_has_beam(enum case_kind kind)
+{
+    return kind != CASE_LOOP;
+}
+
+/* Can a case of this kind have a dynamic part beside the polar? */
+static inline bool case_kind_is_dynamic(enum case_kind kind)
+{
+    return case_kind_flows(kind) || kind == CASE_LOOP;
+}
+
+/* Does a run of this kind leave a series? */
+static inline bool case_kind_records(enum case_kind kind)
+{
+    return kind == CASE_SIMULATION || kind == CASE_LOOP;
+}
+
 /* Time after which neither gust nor root move any more: 0 without, INFINITY for a sine [s]. */
 double case_def_driven_until(const struct case_def *def);
 
 /* Does the case have a flow and aerodynamics? One of kind static may. */
 bool case_def_flows(const struct case_def *def);
+/* Does it have a polar, and perhaps a network? */
+static inline bool case_def_has_polar(const struct case_def *def)
+{
+    return case_def_flows(def) || def->kind == CASE_LOOP;
+}
+
+/* The whole definition of a case of kind loop. */
+struct loop_def case_def_loop(const struct case_def *def);
 
 /* Fills every default. */
 void case_def_defaults(struct case_def *def);

@@ -59,7 +59,13 @@ enum status sim_create_like(const struct case_def *def, const struct sim *like, 
         failure_set(fail, ST_NO_MEMORY, "", "no_memory", NULL, NULL, "no memory for the run");
         return ST_NO_MEMORY;
     }
-    enum status st = model_build_like(def, like != NULL ? &like->model : NULL, &s->model, fail);
+    if (!case_kind_has_beam(def->kind)) {
+        s->model.def = *def;
+        *out = s;
+        return ST_OK;
+    }
+    const bool built = like != NULL && case_kind_has_beam(like->model.def.kind);
+    enum status st = model_build_like(def, built ? &like->model : NULL, &s->model, fail);
     if (st == ST_OK && def->kind == CASE_SIMULATION) {
         st = workspace_init(&s->model, &s->workspace);
         if (st == ST_OK) {
@@ -381,7 +387,25 @@ static enum status run_stability(struct sim *s, const struct sim_control *contro
     return st;
 }
 
-enum status sim_run(struct sim *sim, const struct sim_control *control, struct failure *fail)
+static enum status run_loop(struct sim *s, struct failure *fail)
+{
+    const struct loop_def d = case_def_loop(&s->model.def);
+    struct sim_result *out = &s->result;
+    const enum status st = loop_run(&d, &out->loop);
+    if (st != ST_OK) {
+        failure_set(fail, st, "/motion", status_name(st), NULL, NULL,
+                    "the loop could not be computed: %s", status_text(st));
+        return st;
+    }
+    out->n_column =
+        polar_def_has_drag(d.polar) ? LOOP_QUANTITIES - LOOP_ALPHA : LOOP_CD - LOOP_ALPHA;
+    out->n_sample = out->loop.n;
+    out->sample_step = out->loop.value[1] - out->loop.value[0];
+    return ST_OK;
+}
+
+static enum status run_beam(struct sim *sim, const struct sim_control *control,
+                            struct failure *fail)
 {
     const enum case_kind kind = sim->model.def.kind;
     enum status st = report_section(&sim->model, &sim->result.section);
@@ -400,6 +424,13 @@ enum status sim_run(struct sim *sim, const struct sim_control *control, struct f
     } else if (kind == CASE_STABILITY) {
         st = run_stability(sim, control, fail);
     }
+    return st;
+}
+
+enum status sim_run(struct sim *sim, const struct sim_control *control, struct failure *fail)
+{
+    const enum status st = case_kind_has_beam(sim->model.def.kind) ? run_beam(sim, control, fail)
+                                                                   : run_loop(sim, fail);
     if (st == ST_OK && control != NULL && control->progress != NULL) {
         atomic_store(control->progress, 1.0);
     }
@@ -414,13 +445,17 @@ const struct sim_result *sim_result(const struct sim *sim)
 const double *sim_column(const struct sim *sim, int column)
 {
     assert(column >= 0);
-    assert(column < sim->record.n_column);
+    assert(column < sim->result.n_column);
+    if (sim->model.def.kind == CASE_LOOP) {
+        return sim->result.loop.value + num_at(0, LOOP_ALPHA + column, sim->result.n_sample);
+    }
     return sim->record.sample + (ptrdiff_t)sim->record.sample_capacity * column;
 }
 
 void sim_destroy(struct sim *sim)
 {
     if (sim != NULL) {
+        loop_done(&sim->result.loop);
         statics_done(&sim->result.statics);
         stability_done(&sim->result.stability);
         record_done(&sim->record);

@@ -8,6 +8,7 @@
 #define AEROM_CORE_SIM_H
 
 #include "core/analysis/damping.h"
+#include "core/analysis/loop.h"
 #include "core/analysis/span_loads.h"
 #include "core/analysis/stability.h"
 #include "core/analysis/statics.h"
@@ -81,6 +82,7 @@ struct sim_result {
     struct section_result section;
     struct static_result statics;      /* CASE_STATIC */
     struct stability_result stability; /* CASE_STABILITY */
+    struct loop_result loop;           /* CASE_LOOP; its record has time in c/V */
     int n_mode;
     struct mode_result mode[LIMIT_MODES];
     struct {
@@ -120,7 +122,8 @@ MUST_CHECK enum status sim_run(struct sim *sim, const struct sim_control *contro
                                struct failure *fail);
 
 const struct sim_result *sim_result(const struct sim *sim);
-/* Recorded column, n_sample values. */
+/* Recorded column, n_sample values. Of a loop: angle of the chord, plunge, c_l, c_m and, if the
+ * polar has drag, c_d. */
 const double *sim_column(const struct sim *sim, int column);
 void sim_destroy(struct sim *sim);
 

@@ -17,7 +17,7 @@ static const unsigned moves[JOB_STATE_COUNT] = {
 
 static const char *const kind_names[] = {
     [CASE_SIMULATION] = "simulation", [CASE_MODES] = "modes",         [CASE_SECTION] = "section",
-    [CASE_STATIC] = "static",         [CASE_STABILITY] = "stability",
+    [CASE_STATIC] = "static",         [CASE_STABILITY] = "stability", [CASE_LOOP] = "loop",
 };
 
 bool job_move_allowed(enum job_state from, enum job_state to)

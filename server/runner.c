@@ -81,10 +81,10 @@ static bool encode_series(struct run_outcome *out, const struct case_def *def,
     void *buffer = malloc(series_bound());
     bool ok = out->column != NULL && out->chunk != NULL && out->block != NULL && buffer != NULL;
     for (int j = 0; ok && j < r->n_column; j++) {
-        enum channel channel;
-        ok = channel_column(def, j, out->column[j].name, &channel);
+        double scale = 1.0;
+        ok = channel_column(def, j, out->column[j].name, &scale);
         assert(ok); /* the core records exactly the columns the case names */
-        ok = encode_column(out, j, sim_column(sim, j), channel_scale(channel), buffer);
+        ok = encode_column(out, j, sim_column(sim, j), scale, buffer);
     }
     free(buffer);
     out->series.column = out->column;

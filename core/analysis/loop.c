@@ -5,67 +5,10 @@
 #include "core/num.h"
 
 #include <assert.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 /* The units of this room. */
 static const double chord = 1.0, speed = 1.0, density = 1.0, dynamic_pressure = 0.5;
-
-void loop_def_defaults(struct loop_def *def)
-{
-    *def = (struct loop_def){.dynamic = DYNAMIC_NONE, .cycles = 10, .steps = 400};
-}
-
-static void refuse(struct failure_list *out, const char *pointer, const char *expected, double got)
-{
-    char text[32];
-    (void)snprintf(text, sizeof text, "%g", got);
-    failure_set(failure_add(out), ST_INVALID, pointer, "out_of_range", expected, text,
-                "%s is out of range", pointer);
-}
-
-static void check_table(const struct loop_motion *m, enum dynamic_type dynamic,
-                        struct failure_list *out)
-{
-    if (m->n < 2 || m->n > LOOP_SAMPLES_MAX) {
-        refuse(out, "--motion", "2..1000000 samples", m->n);
-    } else if (!(m->step > 0.0) || !num_all_finite(m->n * MOTION_ROWS, m->value)) {
-        refuse(out, "--motion", "equal steps of time and finite values", m->step);
-    }
-    if (dynamic == DYNAMIC_NETWORK) {
-        failure_set(failure_add(out), ST_INVALID, "--motion", "contradiction", NULL, NULL,
-                    "the mean angle a network sees is that of a cycle: a table has none");
-    }
-}
-
-void loop_def_check(const struct loop_def *def, struct failure_list *out)
-{
-    if (def->motion != NULL) {
-        check_table(def->motion, def->dynamic, out);
-        return;
-    }
-    if (!(fabs(def->mean) <= NUM_PI)) {
-        refuse(out, "--mean-deg", "-180..180", num_deg(def->mean));
-    }
-    if (!(def->amplitude >= 0.0 && def->amplitude <= NUM_PI)) {
-        refuse(out, "--amplitude-deg", "0..180", num_deg(def->amplitude));
-    }
-    if (!(def->frequency > 0.0 && def->frequency <= 10.0)) {
-        refuse(out, "--frequency", "f c/V, above 0 and at most 10", def->frequency);
-    }
-    if (!(def->plunge >= 0.0 && def->plunge <= 10.0)) {
-        refuse(out, "--plunge", "0..10 chords", def->plunge);
-    }
-    if (!isfinite(def->phase)) {
-        refuse(out, "--phase-deg", "a finite angle", num_deg(def->phase));
-    }
-    if (def->cycles < 1 || def->cycles > LOOP_CYCLES_MAX) {
-        refuse(out, "--cycles", "1..1000", def->cycles);
-    }
-    if (def->steps < LOOP_STEPS_MIN || def->steps > LOOP_STEPS_MAX) {
-        refuse(out, "--steps", "16..10000", def->steps);
-    }
-}
 
 /* The motion at one time and what follows from it. */
 struct state {
@@ -186,13 +129,14 @@ static void add_stall(struct station *s, double alpha, const struct state *m, bo
                                &c[LOOP_CM]);
 }
 
-/* The sliding mean over a cycle that the network sees is the mean of the motion. */
-static void add_network(const struct station *s, const struct loop_def *d, double alpha,
-                        const struct state *m, double *c)
+/* The sliding mean over a cycle that the network sees is the mean of the motion. One when that is
+ * outside its hull, else zero. */
+static int add_network(const struct station *s, const struct loop_def *d, double alpha,
+                       const struct state *m, double *c)
 {
     double out[NET_OUT_COUNT];
     if (s->network == NULL) {
-        return;
+        return 0;
     }
     const double in[NET_IN_COUNT] = {
         [NET_IN_MEAN_ALPHA] = d->mean,
@@ -201,10 +145,11 @@ static void add_network(const struct station *s, const struct loop_def *d, doubl
         [NET_IN_ALPHA_ACCELERATION] = m->theta_acceleration - m->w_jerk,
         [NET_IN_PLUNGE_RATE] = m->w_rate,
     };
-    (void)network_eval(s->network, 1, in, out);
+    const int outside = network_eval(s->network, 1, in, out);
     c[LOOP_CL] += out[NET_OUT_CL];
     c[LOOP_CD] += out[NET_OUT_CD];
     c[LOOP_CM] += out[NET_OUT_CM];
+    return outside;
 }
 
 static void add_apparent_mass(const struct station *s, const struct state *m, double *c)
@@ -231,7 +176,7 @@ static void march(const struct loop_def *d, struct station *s, struct loop_resul
         };
         r->outside_polar += v.outside;
         add_stall(s, alpha, &m, i == 0, c);
-        add_network(s, d, alpha, &m, c);
+        r->outside_hull += add_network(s, d, alpha, &m, c);
         add_apparent_mass(s, &m, c);
         c[LOOP_CD] = polar_def_has_drag(d->polar) ? c[LOOP_CD] : (double)NAN;
         for (int k = 0; k < LOOP_QUANTITIES; k++) {

@@ -7,58 +7,16 @@
 #ifndef AEROM_CORE_ANALYSIS_LOOP_H
 #define AEROM_CORE_ANALYSIS_LOOP_H
 
-#include "core/case_def.h"
-
-/* A motion given as a table at equal steps. The section stands still before. */
-enum loop_motion_row {
-    MOTION_THETA, /* [rad] */
-    MOTION_THETA_RATE,
-    MOTION_THETA_ACCELERATION, /* by c/V */
-    MOTION_W,                  /* w/c */
-    MOTION_W_RATE,
-    MOTION_W_ACCELERATION,
-    MOTION_ROWS
-};
-struct loop_motion {
-    int n;         /* 2..LOOP_SAMPLES_MAX */
-    double step;   /* c/V, > 0 */
-    double *value; /* (n x MOTION_ROWS), time fastest; whose it is, the caller says */
-};
-
-/* theta = mean + amplitude sin(2 pi f t), w = plunge sin(2 pi f t + phase), or a table. */
-struct loop_def {
-    const struct polar_def *polar; /* borrowed */
-    enum dynamic_type dynamic;
-    const struct network_def *network; /* borrowed, NULL unless DYNAMIC_NETWORK */
-    double mean, amplitude;            /* of the angle of the chord [rad], nose-up */
-    double plunge;                     /* amplitude of mid-chord in chords, up */
-    double phase;                      /* of the plunge ahead of the pitch [rad] */
-    double frequency;                  /* f c/V, > 0 */
-    int cycles;                        /* 1..LOOP_CYCLES_MAX; steady flow at t = 0 before */
-    int steps;                         /* a cycle, LOOP_STEPS_MIN..LOOP_STEPS_MAX */
-    /* Instead of all six above, borrowed, NULL for none. Not with DYNAMIC_NETWORK, whose mean angle
-     * is that of a cycle. */
-    const struct loop_motion *motion;
-};
-enum {
-    LOOP_CYCLES_MAX = 1000,
-    LOOP_STEPS_MIN = 16,
-    LOOP_STEPS_MAX = 10000,
-    LOOP_SAMPLES_MAX = 1000000
-};
-
-/* Polar NULL, no network; 10 cycles of 400 steps; the rest zero. */
-void loop_def_defaults(struct loop_def *def);
-/* Appends what is wrong with the motion; pointers are those of the command line's options. */
-void loop_def_check(const struct loop_def *def, struct failure_list *out);
+#include "core/loop_def.h"
+#include "core/status.h"
 
 enum loop_quantity {
     LOOP_TIME,   /* c/V */
     LOOP_ALPHA,  /* angle of the chord, theta [rad] */
     LOOP_PLUNGE, /* w/c */
     LOOP_CL,     /* normal to the undisturbed stream */
-    LOOP_CD,     /* NaN if the polar has no drag */
     LOOP_CM,     /* about mid-chord, nose-up */
+    LOOP_CD,     /* NaN if the polar has no drag */
     LOOP_QUANTITIES
 };
 
@@ -69,6 +27,7 @@ struct loop_result {
      * the integrals of c_m d(theta) and c_l d(w/c). Positive feeds, negative damps. */
     double work_pitch, work_plunge;
     long outside_polar; /* steps outside the table */
+    long outside_hull;  /* steps outside the training hull of the network */
 };
 
 /* Runs a checked motion. On failure *out is unchanged. */

@@ -36,6 +36,11 @@ static const char *const cases[] = {
         "{\"schema_version\":1,\"kind\":\"stability\",\"beam\":{\"length_m\":0.37," SECTION
         "},\"aerodynamics\":{\"polar\":\"flat-plate-linear\",\"dynamic\":{\"type\":\"attached\"}},"
         "\"stability\":{\"from_m_s\":2,\"to_m_s\":25,\"count\":24}}",
+    [CASE_LOOP] =
+        "{\"schema_version\":1,\"kind\":\"loop\",\"aerodynamics\":{\"polar\":"
+        "\"plate-4pct-channel\",\"dynamic\":{\"type\":\"attached\"}},\"motion\":{\"type\":\"sine\","
+        "\"amplitude_deg\":3,\"plunge_c\":0.1,\"phase_deg\":90,\"frequency_c_v\":0.1,\"cycles\":2}"
+        "}",
     [CASE_SECTION] = "{\"schema_version\":1,\"kind\":\"section\",\"beam\":{" SECTION "}}",
 };
 
@@ -354,6 +359,33 @@ static void test_no_instability(void **state)
     json_free(d);
 }
 
+/* The record has time in c/V; the work is the integral over its last cycle. */
+static void test_loop(void **state)
+{
+    struct fixture *f = *state;
+    const struct sim_result *r = run(f, CASE_LOOP);
+    cJSON *s = document(f, "summary", r);
+    assert_int_equal(r->n_sample, 801);
+    assert_int_equal(r->n_column, 5);
+    assert_near_rel(number(s, "step_c_v"), 1.0 / (0.1 * 400), 1e-15);
+    const double *alpha = sim_column(f->sim, 0), *w = sim_column(f->sim, 1);
+    const double *cl = sim_column(f->sim, 2), *cm = sim_column(f->sim, 3);
+    double pitch = 0.0, plunge = 0.0, most = -1.0;
+    for (int i = 0; i < 800; i++) {
+        most = fmax(most, cl[i]);
+        if (i >= 400) {
+            pitch += 0.5 * (cm[i] + cm[i + 1]) * (alpha[i + 1] - alpha[i]);
+            plunge += 0.5 * (cl[i] + cl[i + 1]) * (w[i + 1] - w[i]);
+        }
+    }
+    assert_near_rel(number(s, "work/pitch"), pitch, 1e-3);
+    assert_near_rel(number(s, "work/plunge"), plunge, 1e-3);
+    assert_near_rel(number(s, "work/total"), r->loop.work_pitch + r->loop.work_plunge, 1e-15);
+    assert_near_abs(number(s, "cl/max"), most, 0.0);
+    assert_near_abs(number(s, "outside_hull"), 0.0, 0.0);
+    json_free(s);
+}
+
 static void test_static(void **state)
 {
     struct fixture *f = *state;
@@ -434,6 +466,7 @@ int main(void)
         TEST(test_simulation),
         TEST(test_modes),
         TEST(test_section),
+        TEST(test_loop),
         TEST(test_static),
         TEST(test_stability),
         TEST(test_no_instability),

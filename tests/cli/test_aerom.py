@@ -265,6 +265,71 @@ class Loop(unittest.TestCase):
             path.write_text(lines[0] + "\n", encoding="ascii")
             self.assertIn("2..1000000", aerom("loop", "--motion", path).stderr)
 
+    def run_case(self, case, folder):
+        """Summary and series of a case of kind loop."""
+        path = Path(folder) / "series.csv"
+        result = aerom("run", "-", "--series", path, text=json.dumps(
+            {"schema_version": 1, "kind": "loop", **case}))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with path.open(encoding="ascii") as file:
+            return json.loads(result.stdout), list(csv.DictReader(file))
+
+    def test_case_gives_the_same_numbers(self):
+        """`aerom run` of a case of kind loop and `aerom loop`, for a sine and a table."""
+        sine = {"type": "sine", "mean_deg": 8, "amplitude_deg": 6, "plunge_c": 0.2, "phase_deg": 30,
+                "frequency_c_v": 0.06, "cycles": 2, "steps": 200}
+        options = ("--mean-deg", 8, "--amplitude-deg", 6, "--plunge", 0.2, "--phase-deg", 30,
+                   "--frequency", 0.06, "--cycles", 2, "--steps", 200)
+        omega, amplitude = 2 * math.pi * 0.1, math.radians(3)
+        x = [omega * i / 40 for i in range(401)]
+        table = {"alpha_deg": [3 * math.sin(v) for v in x],
+                 "alpha_dot": [amplitude * omega * math.cos(v) for v in x],
+                 "alpha_ddot": [-amplitude * omega ** 2 * math.sin(v) for v in x],
+                 "w": [0.1 * math.sin(v) for v in x], "w_dot": [0.1 * omega * math.cos(v) for v in x],
+                 "w_ddot": [-0.1 * omega ** 2 * math.sin(v) for v in x]}
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "motion.csv"
+            with path.open("w", encoding="ascii", newline="") as file:
+                rows = csv.writer(file)
+                rows.writerow(["t", *table])
+                rows.writerows([i / 40, *(repr(v[i]) for v in table.values())] for i in range(401))
+            for motion, arguments in ((sine, options),
+                                      ({"type": "table", "step_c_v": 0.025, **table}, ("--motion", path))):
+                with self.subTest(motion=motion["type"]):
+                    loop, work = self.loop("--dynamic", "dynamic_stall", *arguments)
+                    summary, series = self.run_case(
+                        {"aerodynamics": {"polar": "plate-4pct-channel",
+                                          "dynamic": {"type": "dynamic_stall"}}, "motion": motion}, folder)
+                    self.assertAlmostEqual(summary["work"]["total"], work, delta=1e-8)
+                    self.assertEqual(len(series), len(loop))
+                    for a, b in zip(series, loop):
+                        self.assertAlmostEqual(float(a["time_s"]), b["t"], delta=1e-4)
+                        for name in ("alpha_deg", "w", "cl", "cd", "cm"):
+                            self.assertAlmostEqual(float(a[name]), b[name], delta=2e-6)
+
+    def test_bad_case(self):
+        sine = {"type": "sine", "frequency_c_v": 0.1}
+        table = {"type": "table", "step_c_v": 0.1, "alpha_deg": [0, 0, 0], "alpha_dot": [0, 0, 0],
+                 "alpha_ddot": [0, 0, 0]}
+        for motion, pointer in (
+                (None, "/motion"), ({"type": "sine"}, "/motion/frequency_c_v"),
+                ({**sine, "frequency_c_v": 0}, "/motion/frequency_c_v"),
+                ({**sine, "cycles": 1000, "steps": 1000}, "/motion/steps"),
+                ({**sine, "type": "walk"}, "/motion/type"), ({**sine, "w": [0, 0]}, "/motion/w"),
+                ({**table, "alpha_dot": [0, 0]}, "/motion/alpha_dot"),
+                ({**table, "w": [0, 0, 0]}, "/motion/w_dot"),
+                ({**table, "w_dot": [0, 0, 0], "w_ddot": [0, 0, 0]}, "/motion/w"),
+                ({**table, "step_c_v": 0}, "/motion/step_c_v"),
+                ({k: [0] if k != "type" and k != "step_c_v" else v for k, v in table.items()},
+                 "/motion/alpha_deg")):
+            with self.subTest(pointer=pointer):
+                case = {"schema_version": 1, "kind": "loop",
+                        "aerodynamics": {"polar": "plate-4pct-channel"}}
+                result = aerom("run", "-", text=json.dumps(case if motion is None else
+                                                           {**case, "motion": motion}))
+                self.assertEqual((result.returncode, result.stdout), (1, ""))
+                self.assertIn("  %s: " % pointer, result.stderr)
+
     def test_bad_motion(self):
         for arguments, code, word in (
                 ((), 2, "usage"), (("--frequency", "fast"), 2, "fast"),
@@ -298,7 +363,8 @@ class Run(unittest.TestCase):
                           "modes": {"modes", "section"},
                           "section": {"section", "stiffness", "stiffness_condensed", "mass"},
                           "static": {"tip", "reactions", "first_ply_failure", "section"},
-                          "stability": {"verdict", "divergence", "flutter", "least_damped", "section"}}[kind]
+                          "stability": {"verdict", "divergence", "flutter", "least_damped", "section"},
+                          "loop": {"work", "outside_polar", "outside_hull", "cl", "cm", "cd"}}[kind]
                 self.assertEqual(wanted - set(summary), set())
 
     def test_standard_input_gives_the_same_answer(self):

@@ -225,15 +225,17 @@ static void bad_motions_are_refused(void **state)
         struct loop_def d;
         const char *pointer;
     } bad[] = {
-        {{.frequency = 0.0, .cycles = 1, .steps = 100}, "--frequency"},
-        {{.frequency = (double)NAN, .cycles = 1, .steps = 100}, "--frequency"},
-        {{.frequency = 0.1, .cycles = 0, .steps = 100}, "--cycles"},
-        {{.frequency = 0.1, .cycles = 1001, .steps = 100}, "--cycles"},
-        {{.frequency = 0.1, .cycles = 1, .steps = 15}, "--steps"},
-        {{.frequency = 0.1, .cycles = 1, .steps = 100, .mean = 4.0}, "--mean-deg"},
-        {{.frequency = 0.1, .cycles = 1, .steps = 100, .amplitude = -0.1}, "--amplitude-deg"},
-        {{.frequency = 0.1, .cycles = 1, .steps = 100, .plunge = -0.1}, "--plunge"},
-        {{.frequency = 0.1, .cycles = 1, .steps = 100, .phase = (double)INFINITY}, "--phase-deg"},
+        {{.frequency = 0.0, .cycles = 1, .steps = 100}, "/motion/frequency_c_v"},
+        {{.frequency = (double)NAN, .cycles = 1, .steps = 100}, "/motion/frequency_c_v"},
+        {{.frequency = 0.1, .cycles = 0, .steps = 100}, "/motion/cycles"},
+        {{.frequency = 0.1, .cycles = 1001, .steps = 100}, "/motion/cycles"},
+        {{.frequency = 0.1, .cycles = 1, .steps = 15}, "/motion/steps"},
+        {{.frequency = 0.1, .cycles = 1000, .steps = 1000}, "/motion/steps"},
+        {{.frequency = 0.1, .cycles = 1, .steps = 100, .mean = 4.0}, "/motion/mean_deg"},
+        {{.frequency = 0.1, .cycles = 1, .steps = 100, .amplitude = -0.1}, "/motion/amplitude_deg"},
+        {{.frequency = 0.1, .cycles = 1, .steps = 100, .plunge = -0.1}, "/motion/plunge_c"},
+        {{.frequency = 0.1, .cycles = 1, .steps = 100, .phase = (double)INFINITY},
+         "/motion/phase_deg"},
     };
     static struct failure_list problems;
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
@@ -253,7 +255,7 @@ static void bad_motions_are_refused(void **state)
         problems.count = problems.total = 0;
         loop_def_check(&d, &problems);
         assert_int_equal(problems.total, 1);
-        assert_string_equal(problems.item[0].pointer, "--motion");
+        assert_string_equal(problems.item[0].pointer, "/motion");
     }
 }
 

@@ -1,5 +1,6 @@
 """The life of jobs over HTTP."""
 import json
+import math
 import resource
 import signal
 import sqlite3
@@ -47,6 +48,27 @@ class Jobs(DaemonTest):
         self.assertEqual(case["beam"]["section"]["chordwise_curvature"], "free")
         status, _, again = d.request("POST", "/v1/jobs", case)
         self.assertEqual((status, again["reused"], again["id"]), (200, True, body["id"]))
+
+    def test_loop(self):
+        """A section in prescribed motion: the work is the area of the loop of its series."""
+        d = self.start().wait_ready()
+        job = d.submit({"schema_version": 1, "kind": "loop",
+                        "aerodynamics": {"polar": "plate-4pct-channel",
+                                         "dynamic": {"type": "dynamic_stall"}},
+                        "motion": {"type": "sine", "mean_deg": 8, "amplitude_deg": 6,
+                                   "frequency_c_v": 0.06, "cycles": 3}})
+        self.assertEqual(d.wait(job)["state"], "done")
+        _, _, summary = d.request("GET", f"/v1/jobs/{job}/summary")
+        _, _, series = d.request("GET", f"/v1/jobs/{job}/series")
+        self.assertEqual(set(series["channels"]), {"alpha_deg", "w", "cl", "cm", "cd"})
+        self.assertEqual((series["samples"], series["step_s"]), (1201, summary["step_c_v"]))
+        alpha, cm = (series["channels"][name]["value"][-401:] for name in ("alpha_deg", "cm"))
+        area = sum(0.5 * (cm[i] + cm[i + 1]) * math.radians(alpha[i + 1] - alpha[i])
+                   for i in range(400))
+        self.assertAlmostEqual(summary["work"]["pitch"], area, delta=1e-3 * abs(area))
+        self.assertGreater(area, 0.005)  # through stall slow pitch is fed
+        status, _, _ = d.request("GET", f"/v1/jobs/{job}/modes")
+        self.assertEqual(status, 404)
 
     def test_series(self):
         d = self.start().wait_ready()
