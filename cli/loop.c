@@ -6,29 +6,11 @@
 #include "cli/report.h"
 #include "cli/source.h"
 
-#include "api/case.h"
 #include "core/analysis/loop.h"
 #include "core/num.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-static bool find_dynamic(const struct options *o, struct sources *s, struct failure_list *problems,
-                         struct loop_def *d)
-{
-    if (o->dynamic != NULL && !dynamic_type_parse(o->dynamic, &d->dynamic)) {
-        (void)fprintf(stderr,
-                      "aerom: --dynamic: '%s' is not one of none, network, attached, "
-                      "dynamic_stall\n",
-                      o->dynamic);
-        return false;
-    }
-    if ((d->dynamic == DYNAMIC_NETWORK) != (o->network != NULL)) {
-        (void)fprintf(stderr, "aerom: --network goes with, and only with, --dynamic network\n");
-        return false;
-    }
-    return o->network == NULL || source_network(o->network, s, problems, &d->network);
-}
 
 static bool has_sine(const struct options *o)
 {
@@ -130,7 +112,8 @@ int loop_main(int argc, char **argv)
         }
         def.motion = &motion;
     }
-    if (source_polar(o.polar, &s, problems, &def.polar) && find_dynamic(&o, &s, problems, &def)) {
+    if (source_polar(o.polar, &s, problems, &def.polar) &&
+        source_dynamic(o.dynamic, o.network, &s, problems, &def.dynamic, &def.network)) {
         done = compute(&def, start, problems);
     }
 out:

@@ -1,5 +1,6 @@
 /* aerom: computes a case in this process, or talks to a daemon. */
 #include "cli/command.h"
+#include "cli/free.h"
 #include "cli/loop.h"
 #include "cli/remote.h"
 #include "cli/run.h"
@@ -22,6 +23,9 @@ static const struct command commands[] = {
      "[--phase-deg A]\n"
      "      [--cycles N] [--steps N]",
      "coefficients of a section in prescribed pitch and plunge, as CSV; the last line is the work"},
+    {"free", free_main,
+     "NAME=VALUE... [--polar NAME|FILE.json] [--dynamic TYPE] [--network NAME|FILE.json]",
+     "a section on springs, free to pitch and plunge, as CSV; the last line says how it ended"},
     {"train", train_main,
      "FOLDER --output FILE.json [--name NAME] [--description TEXT] [--polar NAME|FILE.json]\n"
      "      [--inputs NAME,...] [--hidden N] [--optimiser lm|adam] [--epochs N] [--decay X] "

@@ -3,6 +3,7 @@
 #include "cli/file.h"
 #include "cli/report.h"
 
+#include "api/case.h"
 #include "api/router.h"
 
 #include <stdlib.h>
@@ -82,4 +83,22 @@ bool source_network(const char *name, struct sources *s, struct failure_list *pr
         (void)fprintf(stderr, "aerom: --network: the library has no network '%s'\n", name);
     }
     return *out != NULL;
+}
+
+bool source_dynamic(const char *dynamic, const char *network, struct sources *s,
+                    struct failure_list *problems, enum dynamic_type *type,
+                    const struct network_def **out)
+{
+    if (dynamic != NULL && !dynamic_type_parse(dynamic, type)) {
+        (void)fprintf(stderr,
+                      "aerom: --dynamic: '%s' is not one of none, network, attached, "
+                      "dynamic_stall\n",
+                      dynamic);
+        return false;
+    }
+    if ((*type == DYNAMIC_NETWORK) != (network != NULL)) {
+        (void)fprintf(stderr, "aerom: --network goes with, and only with, --dynamic network\n");
+        return false;
+    }
+    return network == NULL || source_network(network, s, problems, out);
 }

@@ -7,6 +7,7 @@
 
 #include "api/entry.h"
 #include "api/library.h"
+#include "core/case_def.h"
 
 struct sources {
     struct library *library;
@@ -23,6 +24,11 @@ void sources_done(struct sources *s);
 bool source_polar(const char *name, struct sources *s, struct failure_list *problems,
                   const struct polar_def **out);
 bool source_network(const char *name, struct sources *s, struct failure_list *problems,
+                    const struct network_def **out);
+/* The dynamic model of --dynamic and --network, either of them NULL when not given. On failure
+ * lines have gone to stderr. */
+bool source_dynamic(const char *dynamic, const char *network, struct sources *s,
+                    struct failure_list *problems, enum dynamic_type *type,
                     const struct network_def **out);
 
 #endif

@@ -49,7 +49,7 @@ class Arguments(unittest.TestCase):
     def test_help_names_every_command(self):
         result = aerom("help")
         self.assertEqual(result.returncode, 0)
-        for command in ("run", "loop", "train", "submit", "wait", "get", "show", "cancel", "list"):
+        for command in ("run", "loop", "free", "train", "submit", "wait", "get", "show", "cancel", "list"):
             self.assertIn("aerom %s " % command, result.stdout)
 
     def test_wrong_arguments_end_with_2_and_the_usage(self):
@@ -165,6 +165,36 @@ class Train(unittest.TestCase):
         self.assertIn("no column 'name'", self.train().stderr)
         (self.folder / "index.csv").write_text("name\n../s0\n", encoding="ascii")
         self.assertIn("no name of a record", self.train().stderr)
+
+
+class Free(unittest.TestCase):
+    """A plate on springs past its knee: stall flutter in pitch, which attached flow does not know."""
+
+    SECTION = ("mass=50", "inertia=5", "plunge_frequency=0.084", "pitch_frequency=0.105", "plunge_damping=0.05",
+               "pitch_damping=0.05", "rest_deg=4", "pitch_rate_deg=1", "duration=300")
+
+    def free(self, dynamic):
+        result = aerom("free", *self.SECTION, "--dynamic", dynamic)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        lines = result.stdout.splitlines()
+        self.assertRegex(lines[-1], r"^# stop duration outside_polar \d+ outside_hull 0$")
+        return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(lines[:-1])]
+
+    def test_limit_cycle_and_decay(self):
+        for dynamic, low, high in (("dynamic_stall", 5.0, 15.0), ("attached", 0.0, 0.01)):
+            rows = self.free(dynamic)
+            self.assertEqual(rows[0]["alpha_deg"], 4.0)
+            last = [row["alpha_deg"] for row in rows[-1000:]]
+            self.assertTrue(low <= 0.5 * (max(last) - min(last)) <= high, (dynamic, max(last), min(last)))
+
+    def test_what_is_no_field_or_out_of_range_is_named(self):
+        for words, text in ((("mass=50", "weight=3"), "'weight=3'"), (("mass=heavy",), "'heavy' is no number"),
+                            (("mass=-1", "plunge_frequency=0.1", "pitch_frequency=0.1"), "mass"),
+                            (("step=0.1",), "plunge_frequency")):
+            result = aerom("free", *words)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(text, result.stderr)
+        self.assertEqual(aerom("free").returncode, 2)
 
 
 class Loop(unittest.TestCase):
