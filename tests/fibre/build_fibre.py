@@ -12,11 +12,13 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "support"))
+import svg  # noqa: E402
+
 CASE = ROOT / "data" / "cases" / "paper-beam-stability.json"
 DRAWING = ROOT / "docs" / "fibre-angle.svg"
 ANGLES = range(-90, 91, 5)
-CURVES = (("divergence", "#1f6fb4"), ("flutter", "#c5221f"))
-LEFT, TOP, WIDTH, HEIGHT = 70, 30, 840, 340
+CURVES = (("divergence", svg.BLUE), ("flutter", svg.RED))
 SLOW, FAST = 10.0, 22.0
 
 
@@ -39,33 +41,15 @@ def speeds(aerom):
 
 
 def drawing(found):
-    def x(angle):
-        return LEFT + (angle + 90.0) / 180.0 * WIDTH
-
-    def y(speed):
-        return TOP + (FAST - speed) / (FAST - SLOW) * HEIGHT
-
-    out = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 960 470" width="960" height="470" '
-           'font-family="sans-serif" font-size="13">',
-           '<title>Speeds of flutter and divergence of the paper\'s beam over the fibre angle</title>',
-           '<rect width="960" height="470" fill="#ffffff"/>',
-           '<rect x="%d" y="%d" width="%d" height="%d" fill="none" stroke="#555"/>' % (LEFT, TOP, WIDTH, HEIGHT)]
-    for angle in range(-90, 91, 15):
-        out.append('<path d="M%.1f %d v%d" stroke="#eee"/><text x="%.1f" y="%d" text-anchor="middle">%d</text>'
-                   % (x(angle), TOP, HEIGHT, x(angle), TOP + HEIGHT + 18, angle))
-    for speed in range(int(SLOW), int(FAST) + 1, 2):
-        out.append('<path d="M%d %.1f h%d" stroke="#ddd"/><text x="%d" y="%.1f" text-anchor="end">%d</text>'
-                   % (LEFT, y(speed), WIDTH, LEFT - 8, y(speed) + 4, speed))
-    out.append('<text x="%d" y="%d" text-anchor="middle">fibre angle [deg], negative towards the leading edge</text>'
-               % (LEFT + WIDTH // 2, TOP + HEIGHT + 40))
-    out.append('<text x="20" y="%d" transform="rotate(-90 20 %d)" text-anchor="middle">speed [m/s]</text>'
-               % (TOP + HEIGHT // 2, TOP + HEIGHT // 2))
-    for i, (kind, colour) in enumerate(CURVES):
-        points = " ".join("%.1f,%.1f" % (x(a), y(v)) for a, v in found[kind])
-        out.append('<polyline points="%s" fill="none" stroke="%s" stroke-width="2.5"/>' % (points, colour))
-        out.append('<path d="M%d 446 h30" stroke="%s" stroke-width="2.5"/><text x="%d" y="450">%s</text>'
-                   % (LEFT + 290 * i, colour, LEFT + 36 + 290 * i, kind))
-    return "\n".join(out + ["</svg>"]) + "\n"
+    panel = svg.Panel(
+        70, 30, 840, 340,
+        svg.Axis(-90.0, 90.0, [(a, "%d" % a) for a in range(-90, 91, 15)],
+                 label="fibre angle [deg], negative towards the leading edge"),
+        svg.Axis(SLOW, FAST, [(v, "%d" % v) for v in range(int(SLOW), int(FAST) + 1, 2)], label="speed [m/s]"))
+    for kind, colour in CURVES:
+        panel.curve(*zip(*found[kind]), colour, 2.5)
+    return svg.document(960, 470, "Speeds of flutter and divergence of the paper's beam over the fibre angle",
+                        [panel] + svg.legend([(colour, kind) for kind, colour in CURVES], 70, 446, 290))
 
 
 def table(found):

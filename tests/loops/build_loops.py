@@ -20,8 +20,10 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 CFD = ROOT / "data" / "cfd"
 sys.path.insert(0, str(CFD / "campaign"))
+sys.path.insert(0, str(ROOT / "tests" / "support"))
 import build_harmonics  # noqa: E402
 import motion  # noqa: E402
+import svg  # noqa: E402
 
 PAGE = ROOT / "docs" / "LOOPS.md"
 DRAWINGS = ROOT / "docs" / "loops"
@@ -30,9 +32,9 @@ POINTS = build_harmonics.POINTS
 CYCLES = 20
 SETTLED = 6.0  # broadband records count from here on, in c/V
 MODELS = (  # key, options of aerom, name, colour
-    ("none", ("--dynamic", "none"), "quasi-steady", "#9aa0a6"),
-    ("attached", ("--dynamic", "attached"), "attached", "#1f6fb4"),
-    ("stall", ("--dynamic", "dynamic_stall"), "dynamic stall", "#c5221f"),
+    ("none", ("--dynamic", "none"), "quasi-steady", svg.GREY),
+    ("attached", ("--dynamic", "attached"), "attached", svg.BLUE),
+    ("stall", ("--dynamic", "dynamic_stall"), "dynamic stall", svg.RED),
     ("own", ("--dynamic", "dynamic_stall"), "dynamic stall, slope of the polar", None),
 )
 DRAWN = ("pitch_m0_a1_f0.125", "pitch_m2.5_a5_f0.125", "pitch_m5_a7_f0.25", "pitch_m8_a6_f0.06",
@@ -177,81 +179,21 @@ def relative_angle(item):
     return angles
 
 
-def nice_step(span):
-    raw = span / 5.0
-    size = 10.0 ** math.floor(math.log10(raw))
-    return min(s * size for s in (1, 2, 5, 10) if s * size >= raw * 0.999)
-
-
-class Panel:
-    """One coefficient over the angle."""
-
-    width, height = 400, 300
-
-    def __init__(self, left, title, angles, curves):
-        self.left, self.top, self.title = left, 46, title
-        values = [v for _, curve, _ in curves for v in curve]
-        self.x0, self.x1 = self.margins(angles)
-        self.y0, self.y1 = self.margins(values)
-        self.angles, self.curves = angles, curves
-
-    @staticmethod
-    def margins(values):
-        low, high = min(values), max(values)
-        edge = 0.05 * (high - low)
-        return low - edge, high + edge
-
-    def x(self, v):
-        return self.left + (v - self.x0) / (self.x1 - self.x0) * self.width
-
-    def y(self, v):
-        return self.top + (self.y1 - v) / (self.y1 - self.y0) * self.height
-
-    def svg(self):
-        yield '<rect x="%d" y="%d" width="%d" height="%d" fill="none" stroke="#555"/>' % (
-            self.left, self.top, self.width, self.height)
-        yield '<text x="%d" y="%d" font-weight="bold">%s</text>' % (self.left, self.top - 8, self.title)
-        for low, high, across in ((self.x0, self.x1, False), (self.y0, self.y1, True)):
-            step = nice_step(high - low)
-            k = math.ceil(low / step)
-            while k * step <= high:
-                v = k * step
-                if across:
-                    yield ('<path d="M%d %.1f h%d" stroke="#ddd"/><text x="%d" y="%.1f" '
-                           'text-anchor="end">%.4g</text>' % (self.left, self.y(v), self.width,
-                                                              self.left - 6, self.y(v) + 4, v))
-                else:
-                    yield ('<path d="M%.1f %d v%d" stroke="#ddd"/><text x="%.1f" y="%d" '
-                           'text-anchor="middle">%.4g</text>' % (
-                               self.x(v), self.top, self.height, self.x(v),
-                               self.top + self.height + 16, v))
-                k += 1
-        for colour, curve, width in self.curves:
-            points = " ".join("%.1f,%.1f" % (self.x(a), self.y(v))
-                              for a, v in list(zip(self.angles, curve))[::2])
-            yield '<polygon points="%s" fill="none" stroke="%s" stroke-width="%g"/>' % (
-                points, colour, width)
-
-
 def drawing(item):
     angles = relative_angle(item)
-    drawn = [("#000000", item["cfd"], 2.5)]
+    drawn = [(svg.BLACK, item["cfd"], 2.5)]
     drawn += [(colour, item[key]["cycle"], 1.5) for key, _, _, colour in MODELS if colour]
-    out = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 960 430" width="960" height="430" '
-           'font-family="sans-serif" font-size="13">',
-           '<title>Lift and moment of %s: flow computation and models</title>' % item["row"]["name"],
-           '<rect width="960" height="430" fill="#ffffff"/>']
+    parts = []
     for left, key, title in ((60, "cl", "c_l"), (530, "cm", "c_m about mid-chord, nose-up")):
-        panel = Panel(left, title, angles, [(c, cycle[key], w) for c, cycle, w in drawn])
-        out += panel.svg()
-        out.append('<text x="%d" y="%d" text-anchor="middle">angle of the chord in the relative stream '
-                   '[deg]</text>' % (left + 200, 384))
-    x = 60
-    for colour, name in [("#000000", "flow computation")] + [(c, n) for _, _, n, c in MODELS if c]:
-        out.append('<path d="M%d 412 h30" stroke="%s" stroke-width="2.5"/><text x="%d" y="416">%s</text>'
-                   % (x, colour, x + 36, name))
-        x += 190
-    return "\n".join(out + ["</svg>"]) + "\n"
+        panel = svg.Panel(left, 46, 400, 300,
+                          svg.Axis.of(angles, label="angle of the chord in the relative stream [deg]"),
+                          svg.Axis.of([v for _, cycle, _ in drawn for v in cycle[key]]), title)
+        for colour, cycle, width in drawn:
+            panel.curve(angles[::2], cycle[key][::2], colour, width, closed=True)
+        parts.append(panel)
+    names = [(svg.BLACK, "flow computation")] + [(c, n) for _, _, n, c in MODELS if c]
+    return svg.document(960, 430, "Lift and moment of %s: flow computation and models" % item["row"]["name"],
+                        parts + svg.legend(names, 60, 412, 190))
 
 
 def motion_text(item):

@@ -12,14 +12,16 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "support"))
+import svg  # noqa: E402
+
 CASE = ROOT / "data" / "cases" / "paper-beam.json"
 DRAWING = ROOT / "docs" / "span-loads.svg"
-WIDTH, HEIGHT, TOP = 400, 300, 46
 VARIANTS = (  # name, lifting line, colour
-    ("strip theory", None, "#9aa0a6"),
-    ("root and far wall", {"walls": "root_and_far", "width_m": 0.4}, "#1f6fb4"),
-    ("root wall", {"walls": "root"}, "#c5221f"),
-    ("no wall", {"walls": "none"}, "#188038"),
+    ("strip theory", None, svg.GREY),
+    ("root and far wall", {"walls": "root_and_far", "width_m": 0.4}, svg.BLUE),
+    ("root wall", {"walls": "root"}, svg.RED),
+    ("no wall", {"walls": "none"}, svg.GREEN),
 )
 PANELS = (  # left, key, title, top of the scale
     (60, "lift_n_m", "lift per length [N/m]", 0.6),
@@ -46,38 +48,17 @@ def variants(aerom):
     return found
 
 
-def scale(low, high, from_, to):
-    return lambda v: from_ + (v - low) / (high - low) * (to - from_)
-
-
-def panel(left, key, title, highest, found):
-    x = scale(0.0, 0.4, left, left + WIDTH)
-    y = scale(0.0, highest, TOP + HEIGHT, TOP)
-    yield '<rect x="%d" y="%d" width="%d" height="%d" fill="none" stroke="#555"/>' % (left, TOP, WIDTH, HEIGHT)
-    yield '<text x="%d" y="%d" font-weight="bold">%s</text>' % (left, TOP - 8, title)
-    for k in range(5):
-        z = 0.1 * k
-        yield '<text x="%.1f" y="%d" text-anchor="middle">%g</text>' % (x(z), TOP + HEIGHT + 16, z)
-        value = highest * k / 5.0
-        yield '<path d="M%d %.1f h%d" stroke="#ddd"/>' % (left, y(value), WIDTH)
-        yield '<text x="%d" y="%.1f" text-anchor="end">%.2g</text>' % (left - 6, y(value) + 4, value)
-    for _, colour, _, loads in found:
-        points = " ".join("%.1f,%.1f" % (x(z), y(v)) for z, v in zip(loads["z_m"], loads[key]))
-        yield '<polyline points="%s" fill="none" stroke="%s" stroke-width="2"/>' % (points, colour)
-    yield '<text x="%d" y="%d" text-anchor="middle">along the span z [m]</text>' % (left + WIDTH // 2, 384)
-
-
 def drawing(found):
-    out = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 960 430" width="960" height="430" '
-           'font-family="sans-serif" font-size="13">',
-           '<title>Lift and drag along the span of the paper\'s beam at 4 m/s and 3 deg</title>',
-           '<rect width="960" height="430" fill="#ffffff"/>']
+    along = svg.Axis(0.0, 0.4, [(0.1 * k, "%g" % (0.1 * k)) for k in range(5)], label="along the span z [m]")
+    parts = []
     for left, key, title, highest in PANELS:
-        out += panel(left, key, title, highest, found)
-    for i, (name, colour, _, _) in enumerate(found):
-        out.append('<path d="M%d 412 h30" stroke="%s" stroke-width="2.5"/><text x="%d" y="416">%s</text>'
-                   % (60 + 190 * i, colour, 96 + 190 * i, name))
-    return "\n".join(out + ["</svg>"]) + "\n"
+        ticks = [(highest * k / 5.0, "%.2g" % (highest * k / 5.0)) for k in range(6)]
+        panel = svg.Panel(left, 46, 400, 300, along, svg.Axis(0.0, highest, ticks), title)
+        for _, colour, _, loads in found:
+            panel.curve(loads["z_m"], loads[key], colour, 2)
+        parts.append(panel)
+    return svg.document(960, 430, "Lift and drag along the span of the paper's beam at 4 m/s and 3 deg",
+                        parts + svg.legend([(colour, name) for name, colour, _, _ in found], 60, 412, 190))
 
 
 def table(found):
