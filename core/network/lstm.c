@@ -7,6 +7,9 @@
 #include <assert.h>
 #include <string.h>
 
+/* One body for every instruction set. */
+#define KERNEL static inline __attribute__((always_inline)) void
+
 enum gate { INPUT, FORGET, CELL, OUTPUT, GATES };
 
 /* Where the arrays stand in p. */
@@ -58,8 +61,7 @@ void lstm_start(const struct lstm *s, uint64_t seed, double *p)
     }
 }
 
-static void gates(const struct lstm *s, const double *p, const lanes *x, const lanes *h,
-                  lanes *gate)
+KERNEL gates(const struct lstm *s, const double *p, const lanes *x, const lanes *h, lanes *gate)
 {
     const struct layout at = layout_of(s);
     for (int r = 0; r < GATES * s->n_hidden; r++) {
@@ -79,8 +81,7 @@ static void gates(const struct lstm *s, const double *p, const lanes *x, const l
     }
 }
 
-void lstm_forward(const struct lstm *s, const double *p, int n, const lanes *x, lanes *tape,
-                  lanes *y)
+KERNEL forward(const struct lstm *s, const double *p, int n, const lanes *x, lanes *tape, lanes *y)
 {
     const struct layout at = layout_of(s);
     const int rows = lstm_tape_rows(s), m = s->n_hidden;
@@ -113,8 +114,8 @@ struct adjoint {
 };
 
 /* By the outputs of one step: into the weights behind the state, and into the state. */
-static void output_back(const struct lstm *s, const double *p, const lanes *h, const lanes *dy,
-                        struct adjoint *a, lanes *g)
+KERNEL output_back(const struct lstm *s, const double *p, const lanes *h, const lanes *dy,
+                   struct adjoint *a, lanes *g)
 {
     const struct layout at = layout_of(s);
     for (int o = 0; o < s->n_out; o++) {
@@ -129,8 +130,8 @@ static void output_back(const struct lstm *s, const double *p, const lanes *h, c
 
 /* Through state and gates: d (n_hidden x GATES) receives the derivatives by the sums before the
  * gates, a->c those by the state before. */
-static void state_back(const struct lstm *s, const struct moment *before, const struct moment *now,
-                       struct adjoint *a, lanes *d)
+KERNEL state_back(const struct lstm *s, const struct moment *before, const struct moment *now,
+                  struct adjoint *a, lanes *d)
 {
     const int m = s->n_hidden;
     for (int j = 0; j < m; j++) {
@@ -147,8 +148,8 @@ static void state_back(const struct lstm *s, const struct moment *before, const 
 }
 
 /* Through the weights of the gates; a->h receives the derivatives by the state before. */
-static void gates_back(const struct lstm *s, const double *p, const lanes *x, const lanes *h,
-                       const lanes *d, struct adjoint *a, lanes *g)
+KERNEL gates_back(const struct lstm *s, const double *p, const lanes *x, const lanes *h,
+                  const lanes *d, struct adjoint *a, lanes *g)
 {
     const struct layout at = layout_of(s);
     memset(a->h, 0, (size_t)s->n_hidden * sizeof *a->h);
@@ -165,10 +166,9 @@ static void gates_back(const struct lstm *s, const double *p, const lanes *x, co
     }
 }
 
-void lstm_backward(const struct lstm *s, const double *p, int n, const lanes *x, const lanes *tape,
-                   const lanes *dy, lanes *g)
+KERNEL backward(const struct lstm *s, const double *p, int n, const lanes *x, const lanes *tape,
+                const lanes *dy, lanes *g)
 {
-    assert(s->n_hidden <= LSTM_HIDDEN_MAX);
     struct adjoint a;
     lanes d[GATES * LSTM_HIDDEN_MAX];
     memset(&a, 0, sizeof a);
@@ -178,4 +178,41 @@ void lstm_backward(const struct lstm *s, const double *p, int n, const lanes *x,
         state_back(s, &before, &now, &a, d);
         gates_back(s, p, x + num_at(0, k, s->n_in), before.h, d, &a, g);
     }
+}
+
+/* The bodies, compiled for one instruction set. */
+#define FOR_LEVEL(name, target)                                                                    \
+    target static void forward_##name(const struct lstm *s, const double *p, int n,                \
+                                      const lanes *x, lanes *tape, lanes *y)                       \
+    {                                                                                              \
+        forward(s, p, n, x, tape, y);                                                              \
+    }                                                                                              \
+    target static void backward_##name(const struct lstm *s, const double *p, int n,               \
+                                       const lanes *x, const lanes *tape, const lanes *dy,         \
+                                       lanes *g)                                                   \
+    {                                                                                              \
+        backward(s, p, n, x, tape, dy, g);                                                         \
+    }
+
+FOR_LEVEL(portable, )
+FOR_LEVEL(avx2, SIMD_TARGET_AVX2)
+FOR_LEVEL(avx512, SIMD_TARGET_AVX512)
+
+void lstm_forward(const struct lstm *s, const double *p, int n, const lanes *x, lanes *tape,
+                  lanes *y)
+{
+    static void (*const table[SIMD_LEVELS])(const struct lstm *, const double *, int, const lanes *,
+                                            lanes *, lanes *) = {forward_portable, forward_avx2,
+                                                                 forward_avx512};
+    table[simd_level_of_machine()](s, p, n, x, tape, y);
+}
+
+void lstm_backward(const struct lstm *s, const double *p, int n, const lanes *x, const lanes *tape,
+                   const lanes *dy, lanes *g)
+{
+    static void (*const table[SIMD_LEVELS])(const struct lstm *, const double *, int, const lanes *,
+                                            const lanes *, const lanes *, lanes *) = {
+        backward_portable, backward_avx2, backward_avx512};
+    assert(s->n_hidden <= LSTM_HIDDEN_MAX);
+    table[simd_level_of_machine()](s, p, n, x, tape, dy, g);
 }
