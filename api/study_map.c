@@ -43,6 +43,20 @@ void study_map_done(struct study_map *m)
     m->status = NULL;
 }
 
+int study_map_index(const struct study_map *m, int cell, int dimension)
+{
+    for (int d = m->n_dimension - 1; d > dimension; d--) {
+        cell /= m->shape[d];
+    }
+    return cell % m->shape[dimension];
+}
+
+const char *study_map_class(const struct study_map *m, int cell)
+{
+    const double value = m->value[cell];
+    return isfinite(value) ? m->class_name[(int)value] : "";
+}
+
 /* -- values of a summary ---------------------------------------------------------------- */
 
 static const struct {
@@ -171,11 +185,10 @@ static void write_axis(struct json_out *out, const struct study_axis_view *a)
 
 static void write_value(struct json_out *out, const struct study_map *m, int cell)
 {
-    const double value = m->value[cell];
-    if (m->n_class > 0 && isfinite(value)) {
-        json_string(out, m->class_name[(int)value]);
+    if (m->n_class > 0 && isfinite(m->value[cell])) {
+        json_string(out, study_map_class(m, cell));
     } else {
-        json_number(out, value);
+        json_number(out, m->value[cell]);
     }
 }
 

@@ -51,6 +51,11 @@ struct study_map {
 bool study_map_init(struct study_map *m);
 void study_map_done(struct study_map *m);
 
+/* Place of a cell along a dimension. */
+int study_map_index(const struct study_map *m, int cell, int dimension);
+/* The text of a cell's result, "" where it is missing. Only of a map with classes. */
+const char *study_map_class(const struct study_map *m, int cell);
+
 /* What a path leads to in a summary. */
 enum study_value_kind {
     STUDY_VALUE_MISSING, /* null, or not there */

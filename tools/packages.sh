@@ -5,7 +5,7 @@ BUILD_PACKAGES=(
     build-essential cmake ninja-build pkg-config curl
     libmicrohttpd-dev libcjson-dev libopenblas-dev liblapacke-dev libsqlite3-dev
     libzstd-dev libxxhash-dev libsodium-dev libcurl4-openssl-dev libinih-dev
-    libnlopt-dev
+    libnlopt-dev libhdf5-dev
 )
 # What the tests need besides.
 TEST_PACKAGES=(libcmocka-dev python3 clang-format sqlite3 git)

@@ -34,10 +34,11 @@ RESTRICTED_HEADERS = {
     "sqlite3.h": (r"server/(store_sqlite\w*|migrate)\.[ch]", r"tests/.*"),
     "cblas.h": (r"core/la\.c", r"tests/.*"),
     "lapacke.h": (r"core/la\.c", r"tests/.*"),
+    "hdf5.h": (r"api/hdf5_\w+\.c", r"tests/.*"),
     "nlopt.h": (r"core/study/optimum\.c", r"tests/.*"),
     "cjson/cJSON.h": (r"(api|cli)/.*", r"tests/.*"),
     "curl/curl.h": (r"cli/http_client\.c", r"tests/.*"),
-    "pthread.h": (r"server/.*", r"tests/.*"),
+    "pthread.h": (r"server/.*", r"api/hdf5_lock\.c", r"tests/.*"),
     "time.h": (r"(api|server|cli)/.*", r"tests/.*"),
     "unistd.h": (r"(server|cli)/.*", r"tests/.*"),
 }

@@ -28,6 +28,7 @@ FAULTS = [
     ("includes", {"server/jobs.c": "#include <microhttpd.h>\n"}, "<microhttpd.h>"),
     ("includes", {"server/jobs.c": "#include <sqlite3.h>\n"}, "<sqlite3.h>"),
     ("includes", {"core/a.c": "#include <lapacke.h>\n"}, "<lapacke.h>"),
+    ("includes", {"api/b.c": "#include <hdf5.h>\n"}, "<hdf5.h>"),
     ("includes", {"core/study/a.c": "#include <nlopt.h>\n"}, "<nlopt.h>"),
     ("includes", {"core/a.c": "#include <pthread.h>\n"}, "<pthread.h>"),
     ("sizes", {"core/a.c": "int x;\n" * 501}, "501 lines"),
