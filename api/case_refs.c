@@ -1,4 +1,5 @@
-/* Members of a case that define or refer to materials, polars and networks. */
+/* Members of a case that define or refer to materials, polars and networks. What comes off the
+ * shelf becomes a definition inside the case: a stored case needs nothing that can be deleted. */
 #include "api/case_refs.h"
 #include "api/case_fields.h"
 #include "api/json.h"
@@ -62,7 +63,7 @@ static const char *reference(struct reader *r, const struct cJSON *json)
 
 void case_read_ply_material(struct reader *r, const struct cJSON *json, void *base)
 {
-    const struct api_case *c = r->context;
+    struct api_case *c = r->context;
     const char *name = reference(r, json);
     if (name == NULL) {
         return;
@@ -70,6 +71,10 @@ void case_read_ply_material(struct reader *r, const struct cJSON *json, void *ba
     const struct material_entry *e = entry_material(&c->local, name);
     if (e == NULL) {
         e = entry_material(library_entries(c->library), name);
+    }
+    char plain[LIMIT_NAME];
+    if (e == NULL && library_borrow(c->library, SHELF_MATERIAL, name, &c->local, plain)) {
+        e = entry_material(&c->local, plain);
     }
     if (e != NULL) {
         ((struct ply *)base)->material = e->material;
@@ -94,6 +99,10 @@ void case_read_polar(struct reader *r, const struct cJSON *json, void *base)
     if (e == NULL) {
         e = entry_polar(library_entries(c->library), name);
     }
+    char plain[LIMIT_NAME];
+    if (e == NULL && library_borrow(c->library, SHELF_POLAR, name, &c->local, plain)) {
+        e = entry_polar(&c->local, plain);
+    }
     if (e != NULL) {
         c->def.aero.polar = &e->def;
     } else {
@@ -116,6 +125,10 @@ void case_read_network(struct reader *r, const struct cJSON *json, void *base)
     const struct network_entry *e = entry_network(&c->local, name);
     if (e == NULL) {
         e = entry_network(library_entries(c->library), name);
+    }
+    char plain[LIMIT_NAME];
+    if (e == NULL && library_borrow(c->library, SHELF_NETWORK, name, &c->local, plain)) {
+        e = entry_network(&c->local, plain);
     }
     if (e != NULL) {
         c->def.aero.network = &e->def;

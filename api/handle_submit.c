@@ -3,7 +3,6 @@
 #include "api/json.h"
 #include "api/reader.h"
 #include "api/respond.h"
-#include "api/text.h"
 
 #include <assert.h>
 #include <cjson/cJSON.h>
@@ -183,19 +182,6 @@ static void refuse(struct api_response *res, enum problem p, const struct failur
     problem_response(res, p, detail, problems, NULL);
 }
 
-static bool body_is_acceptable(const struct api_call *call, struct api_response *res)
-{
-    const char *type = call->req->content_type;
-    char detail[160];
-    if (text_is_media_type(type, "application/json")) {
-        return true;
-    }
-    (void)snprintf(detail, sizeof detail, "Content-Type is %.80s; send application/json",
-                   type != NULL ? type : "absent");
-    problem_response(res, PROBLEM_MEDIA_TYPE, detail, NULL, NULL);
-    return false;
-}
-
 void handle_submit(const struct api_call *call, struct api_response *res)
 {
     const struct api_request *req = call->req;
@@ -203,7 +189,7 @@ void handle_submit(const struct api_call *call, struct api_response *res)
     cJSON *tree = NULL;
     struct submission *s = NULL;
     struct failure fail;
-    if (!body_is_acceptable(call, res)) {
+    if (!respond_is_json(call, res)) {
         return;
     }
     struct failure_list *problems = calloc(1, sizeof *problems);

@@ -32,7 +32,7 @@ static void write_links(struct json_out *out, const struct job_record *job)
         for (int i = 0; document[i] != NULL; i++) {
             write_link(out, job->id, document[i], document[i]);
         }
-        if (job->kind == CASE_SIMULATION) {
+        if (case_kind_records(job->kind)) {
             write_link(out, job->id, "series", "series");
         }
     }

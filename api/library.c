@@ -12,6 +12,7 @@
 
 struct library {
     struct entry_set set;
+    const struct shelf *shelf;
 };
 
 static bool is_under(const char *path, const char *folder)
@@ -108,6 +109,36 @@ void library_destroy(struct library *lib)
         entry_set_done(&lib->set);
         free(lib);
     }
+}
+
+void library_attach(struct library *lib, const struct shelf *shelf)
+{
+    lib->shelf = shelf;
+}
+
+const struct shelf *library_shelf(const struct library *lib)
+{
+    return lib->shelf;
+}
+
+bool library_borrow(const struct library *lib, enum shelf_kind kind, const char *reference,
+                    struct entry_set *into, char name[LIMIT_NAME])
+{
+    static const entry_reader readers[SHELF_KINDS] = {[SHELF_MATERIAL] = entry_read_material,
+                                                      [SHELF_POLAR] = entry_read_polar,
+                                                      [SHELF_NETWORK] = entry_read_network};
+    int version = 0;
+    struct shelf_entry e = {0};
+    if (lib->shelf == NULL || !shelf_reference(reference, name, &version) ||
+        lib->shelf->get(lib->shelf->ctx, kind, name, version, &e) != SERVICE_OK) {
+        return false;
+    }
+    struct failure_list *problems = calloc(1, sizeof *problems);
+    const bool read =
+        problems != NULL && entry_parse(e.data, e.size, readers[kind], into, problems) == ST_OK;
+    free(problems);
+    shelf_entry_done(&e);
+    return read;
 }
 
 const struct entry_set *library_entries(const struct library *lib)

@@ -18,10 +18,13 @@
     X(PROBLEM_NO_DOCUMENT, "no_document", 404, "The job has no such result")                       \
     X(PROBLEM_UNKNOWN_NAME, "unknown_name", 404, "The library has no entry of this name")          \
     X(PROBLEM_METHOD, "method_not_allowed", 405, "The resource does not answer this method")       \
+    X(PROBLEM_BUILT_IN, "built_in", 409, "The entry belongs to the program")                       \
+    X(PROBLEM_IN_USE, "in_use", 409, "The entry is needed")                                        \
     X(PROBLEM_NOT_READY, "not_ready", 409, "The job has no result")                                \
     X(PROBLEM_TOO_LARGE, "body_too_large", 413, "The body is too large")                           \
-    X(PROBLEM_MEDIA_TYPE, "unsupported_media_type", 415, "The body must be application/json")      \
+    X(PROBLEM_MEDIA_TYPE, "unsupported_media_type", 415, "The body has another media type")        \
     X(PROBLEM_INVALID_CASE, "invalid_case", 422, "The case is not admissible")                     \
+    X(PROBLEM_INVALID_ENTRY, "invalid_entry", 422, "The entry is not admissible")                  \
     X(PROBLEM_INTERNAL, "internal", 500, "The server failed")                                      \
     X(PROBLEM_BUSY, "busy", 503, "The server takes no work now")                                   \
     X(PROBLEM_DISK_FULL, "disk_full", 507, "The disk is full")

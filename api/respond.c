@@ -65,6 +65,19 @@ void respond_service(struct api_response *res, enum service_status st, const cha
                      NULL, NULL);
 }
 
+bool respond_is_json(const struct api_call *call, struct api_response *res)
+{
+    const char *type = call->req->content_type;
+    char detail[160];
+    if (text_is_media_type(type, "application/json")) {
+        return true;
+    }
+    (void)snprintf(detail, sizeof detail, "Content-Type is %.80s; send application/json",
+                   type != NULL ? type : "absent");
+    problem_response(res, PROBLEM_MEDIA_TYPE, detail, NULL, NULL);
+    return false;
+}
+
 bool respond_find_job(const struct api_call *call, struct api_response *res, struct job_record *out)
 {
     const struct service *s = call->api->service;

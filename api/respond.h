@@ -19,6 +19,9 @@ extern const char respond_revalidate[]; /* for what changes with the program */
 /* The problem a service status other than SERVICE_OK means; `id` names the job. */
 void respond_service(struct api_response *res, enum service_status st, const char *id);
 
+/* Whether the body says it is JSON; otherwise the answer is given: 415. */
+bool respond_is_json(const struct api_call *call, struct api_response *res);
+
 /* The job of the path; false when the answer is given already (unknown, or the service failed). */
 bool respond_find_job(const struct api_call *call, struct api_response *res,
                       struct job_record *out);

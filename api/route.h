@@ -45,6 +45,12 @@ void handle_series(const struct api_call *call, struct api_response *res);
 void handle_materials(const struct api_call *call, struct api_response *res);
 void handle_polars(const struct api_call *call, struct api_response *res);
 void handle_networks(const struct api_call *call, struct api_response *res);
+void handle_add_material(const struct api_call *call, struct api_response *res);
+void handle_add_polar(const struct api_call *call, struct api_response *res);
+void handle_add_network(const struct api_call *call, struct api_response *res);
+void handle_remove_material(const struct api_call *call, struct api_response *res);
+void handle_remove_polar(const struct api_call *call, struct api_response *res);
+void handle_remove_network(const struct api_call *call, struct api_response *res);
 /* handle_meta.c */
 void handle_health(const struct api_call *call, struct api_response *res);
 void handle_ready(const struct api_call *call, struct api_response *res);

@@ -11,6 +11,7 @@
 enum { BODY_MAX = 1 << 20, BATCH_BODY_MAX = 16 << 20 };
 
 static const char *const list_query[] = {"kind", "state", "name", "limit", "cursor", NULL};
+static const char *const version_query[] = {"version", NULL};
 static const char *const series_query[] = {"channels", "from_s", "to_s", "points", "format", NULL};
 
 const struct route route_table[] = {
@@ -28,11 +29,17 @@ const struct route route_table[] = {
     {"GET", "/v1/jobs/{id}/static", handle_document, NULL, "static"},
     {"GET", "/v1/jobs/{id}/summary", handle_document, NULL, "summary"},
     {"GET", "/v1/materials", handle_materials, NULL, NULL},
-    {"GET", "/v1/materials/{name}", handle_materials, NULL, NULL},
+    {"POST", "/v1/materials", handle_add_material, NULL, NULL},
+    {"GET", "/v1/materials/{name}", handle_materials, version_query, NULL},
+    {"DELETE", "/v1/materials/{name}", handle_remove_material, version_query, NULL},
     {"GET", "/v1/polars", handle_polars, NULL, NULL},
-    {"GET", "/v1/polars/{name}", handle_polars, NULL, NULL},
+    {"POST", "/v1/polars", handle_add_polar, NULL, NULL},
+    {"GET", "/v1/polars/{name}", handle_polars, version_query, NULL},
+    {"DELETE", "/v1/polars/{name}", handle_remove_polar, version_query, NULL},
     {"GET", "/v1/networks", handle_networks, NULL, NULL},
-    {"GET", "/v1/networks/{name}", handle_networks, NULL, NULL},
+    {"POST", "/v1/networks", handle_add_network, NULL, NULL},
+    {"GET", "/v1/networks/{name}", handle_networks, version_query, NULL},
+    {"DELETE", "/v1/networks/{name}", handle_remove_network, version_query, NULL},
     {"GET", "/healthz", handle_health, NULL, NULL},
     {"GET", "/readyz", handle_ready, NULL, NULL},
     {"GET", "/openapi.json", handle_openapi, NULL, NULL},

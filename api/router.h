@@ -10,6 +10,7 @@
 struct api {
     const struct library *library;
     const struct service *service;
+    const struct shelf *shelf; /* NULL: nothing can be added to the library */
 };
 
 /* Largest accepted body in bytes for a method and path: the adaptor refuses more with 413 before

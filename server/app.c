@@ -4,6 +4,7 @@
 #include "server/clock.h"
 #include "server/http.h"
 #include "server/service_impl.h"
+#include "server/shelf_impl.h"
 #include "server/worker.h"
 
 #include <sodium.h>
@@ -20,6 +21,7 @@ struct app {
     struct dispatch *dispatch;
     struct writer *writer;
     struct service_impl *service;
+    struct shelf_impl *shelf;
     struct api api;
     struct workers *workers;
     struct http_server *http;
@@ -78,6 +80,11 @@ static enum app_exit start_jobs(struct app *a)
     if (a->dispatch == NULL || writer_create(a->store, a->log, &a->writer) != STORE_OK) {
         return failed(a, "writer", "out of memory or threads");
     }
+    a->shelf = shelf_impl_create(a->store, a->writer, a->log);
+    if (a->shelf == NULL) {
+        return failed(a, "library", "out of memory");
+    }
+    library_attach(a->library, shelf_impl_port(a->shelf));
     const struct worker_env env = environment(a);
     if (workers_recover(&env) != STORE_OK) {
         return failed(a, "recovery", "the queue of the previous process cannot be taken over");
@@ -93,7 +100,9 @@ static enum app_exit start_threads(struct app *a)
     if (workers_start(&env, &a->workers) != STORE_OK) {
         return failed(a, "workers", "out of memory or threads");
     }
-    a->api = (struct api){.library = a->library, .service = service_impl_port(a->service)};
+    a->api = (struct api){.library = a->library,
+                          .service = service_impl_port(a->service),
+                          .shelf = shelf_impl_port(a->shelf)};
     const struct http_config http = {.listen = a->config->listen,
                                      .threads = a->config->http_threads};
     char why[256] = "";
@@ -160,6 +169,7 @@ void app_stop(struct app *a)
     http_stop(a->http);       /* the answers are out */
     writer_destroy(a->writer);
     service_impl_destroy(a->service);
+    shelf_impl_destroy(a->shelf);
     dispatch_destroy(a->dispatch);
     library_destroy(a->library);
     store_close(a->store);

@@ -12,6 +12,7 @@
 #define AEROM_SERVER_STORE_H
 
 #include "api/service.h"
+#include "api/shelf.h"
 #include "server/series.h"
 
 enum store_status {
@@ -65,6 +66,7 @@ struct store_result {
     int n_document;
     const struct store_document *document;
     const struct store_series *series; /* NULL when the kind records nothing */
+    const struct shelf_item *entry;    /* network that a training made, else NULL */
 };
 
 /* What became of the jobs a previous process, or a lost worker, had claimed. */
@@ -138,6 +140,12 @@ struct store_ops {
     enum store_status (*recover)(struct store_session *s, const char *owner, int64_t now,
                                  int attempts_max, struct store_recovered *out);
 
+    /* Library. A new version, or the one of equal content. STORE_NOT_READY: a training needs it. */
+    enum store_status (*shelf_put)(struct store_session *s, const struct shelf_item *item,
+                                   int64_t now, int *version, bool *reused);
+    enum store_status (*shelf_drop)(struct store_session *s, enum shelf_kind kind, const char *name,
+                                    int version);
+
     /* -- reads, any session ------------------------------------------------------------- */
     enum store_status (*get)(struct store_session *s, const char *id, struct job_record *out);
     enum store_status (*list)(struct store_session *s, const struct service_filter *filter,
@@ -151,6 +159,11 @@ struct store_ops {
     /* Samples [from, from + n) of the column at `position`. */
     enum store_status (*get_samples)(struct store_session *s, const char *id, int position,
                                      int from, int n, double *value);
+    /* Library, as struct shelf has it. */
+    enum store_status (*shelf_list)(struct store_session *s, enum shelf_kind kind,
+                                    struct shelf_entry **out, int *n);
+    enum store_status (*shelf_get)(struct store_session *s, enum shelf_kind kind, const char *name,
+                                   int version, struct shelf_entry *out);
     /* Jobs without a final state. */
     enum store_status (*depth)(struct store_session *s, int64_t *out);
     /* The id accepted last, "" when there is none. */

@@ -378,6 +378,10 @@ static const struct store_ops sqlite_ops = {
     .get_samples = sqlite_get_samples,
     .depth = sqlite_depth,
     .newest_id = sqlite_newest_id,
+    .shelf_put = sqlite_shelf_put,
+    .shelf_drop = sqlite_shelf_drop,
+    .shelf_list = sqlite_shelf_list,
+    .shelf_get = sqlite_shelf_get,
 };
 
 enum store_status sqlite_store_open(const char *path, struct store **out, char why[STORE_MESSAGE])

@@ -8,7 +8,7 @@
 #include <pthread.h>
 #include <sqlite3.h>
 
-enum { SQLITE_READERS = 8, SQL_CACHE = 64, SQL_TIME_LIMIT_S = 5, SQL_LOG_PAGES = 1000 };
+enum { SQLITE_READERS = 8, SQL_CACHE = 128, SQL_TIME_LIMIT_S = 5, SQL_LOG_PAGES = 1000 };
 
 /* One connection with its prepared statements. */
 struct sqlite_session {
@@ -126,5 +126,14 @@ enum store_status sqlite_get_samples(struct store_session *s, const char *id, in
                                      int from, int n, double *value);
 enum store_status sqlite_depth(struct store_session *s, int64_t *out);
 enum store_status sqlite_newest_id(struct store_session *s, char out[JOB_ID_SIZE]);
+
+enum store_status sqlite_shelf_put(struct store_session *s, const struct shelf_item *item,
+                                   int64_t now, int *version, bool *reused);
+enum store_status sqlite_shelf_drop(struct store_session *s, enum shelf_kind kind, const char *name,
+                                    int version);
+enum store_status sqlite_shelf_list(struct store_session *s, enum shelf_kind kind,
+                                    struct shelf_entry **out, int *n);
+enum store_status sqlite_shelf_get(struct store_session *s, enum shelf_kind kind, const char *name,
+                                   int version, struct shelf_entry *out);
 
 #endif

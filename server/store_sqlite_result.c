@@ -72,6 +72,14 @@ static enum store_status insert_series(struct store_session *s, int64_t seq,
 enum store_status sqlite_insert_result(struct store_session *s, int64_t seq, int64_t fence,
                                        const struct store_result *result, int64_t now)
 {
-    const enum store_status st = insert_documents(s, seq, fence, result, now);
-    return st == STORE_OK && result->series != NULL ? insert_series(s, seq, result->series) : st;
+    enum store_status st = insert_documents(s, seq, fence, result, now);
+    if (st == STORE_OK && result->series != NULL) {
+        st = insert_series(s, seq, result->series);
+    }
+    if (st == STORE_OK && result->entry != NULL) {
+        int version = 0;
+        bool reused = false;
+        st = sqlite_shelf_put(s, result->entry, now, &version, &reused);
+    }
+    return st;
 }

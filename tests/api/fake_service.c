@@ -4,6 +4,7 @@
 
 #include <assert.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -222,6 +223,111 @@ static enum service_status fake_get_columns(void *ctx, const char *id, char (**o
     return SERVICE_OK;
 }
 
+/* -- shelf -- */
+
+static int newest(const struct fake *f, enum shelf_kind kind, const char *name)
+{
+    int version = 0;
+    for (int i = 0; i < f->n_entry; i++) {
+        const struct shelf_entry *e = &f->entry[i].entry;
+        if (f->entry[i].kind == kind && strcmp(e->name, name) == 0 && e->version > version) {
+            version = e->version;
+        }
+    }
+    return version;
+}
+
+static struct shelf_entry copy_of(const struct shelf_entry *e, bool data)
+{
+    struct shelf_entry out = *e;
+    out.head = need_text(e->head);
+    out.data = data ? need(e->size + 1, 1) : NULL;
+    if (data) {
+        memcpy(out.data, e->data, e->size);
+    }
+    return out;
+}
+
+static void fake_put(void *ctx, const struct shelf_item *item, shelf_put_done done, void *arg)
+{
+    struct fake *f = ctx;
+    if (f->refuse != SERVICE_OK) {
+        done(arg, f->refuse, 0, false);
+        return;
+    }
+    for (int i = 0; i < f->n_entry; i++) {
+        const struct shelf_entry *e = &f->entry[i].entry;
+        if (f->entry[i].kind == item->kind && strcmp(e->name, item->name) == 0 &&
+            strcmp(e->hash, item->hash) == 0) {
+            done(arg, SERVICE_OK, e->version, true);
+            return;
+        }
+    }
+    assert(f->n_entry < FAKE_ENTRIES_MAX);
+    struct shelf_entry e = {.version = newest(f, item->kind, item->name) + 1,
+                            .created_us = 1700000000000000,
+                            .head = (char *)(uintptr_t)item->head,
+                            .data = (void *)(uintptr_t)item->data,
+                            .size = item->size};
+    (void)snprintf(e.name, sizeof e.name, "%s", item->name);
+    (void)snprintf(e.hash, sizeof e.hash, "%s", item->hash);
+    f->entry[f->n_entry].kind = item->kind;
+    f->entry[f->n_entry++].entry = copy_of(&e, true);
+    done(arg, SERVICE_OK, e.version, false);
+}
+
+static void fake_drop(void *ctx, enum shelf_kind kind, const char *name, int version,
+                      shelf_drop_done done, void *arg)
+{
+    struct fake *f = ctx;
+    int kept = 0;
+    if (f->in_use) {
+        done(arg, SERVICE_NOT_READY);
+        return;
+    }
+    for (int i = 0; i < f->n_entry; i++) {
+        struct fake_entry *e = &f->entry[i];
+        if (e->kind == kind && strcmp(e->entry.name, name) == 0 &&
+            (version == 0 || version == e->entry.version)) {
+            shelf_entry_done(&e->entry);
+        } else {
+            f->entry[kept++] = *e;
+        }
+    }
+    const bool found = kept < f->n_entry;
+    f->n_entry = kept;
+    done(arg, found ? SERVICE_OK : SERVICE_NOT_FOUND);
+}
+
+static enum service_status fake_entries(void *ctx, enum shelf_kind kind, struct shelf_entry **out,
+                                        int *n)
+{
+    const struct fake *f = ctx;
+    *out = need(FAKE_ENTRIES_MAX, sizeof **out);
+    *n = 0;
+    for (int i = 0; i < f->n_entry; i++) {
+        if (f->entry[i].kind == kind) {
+            (*out)[(*n)++] = copy_of(&f->entry[i].entry, false);
+        }
+    }
+    return SERVICE_OK;
+}
+
+static enum service_status fake_entry(void *ctx, enum shelf_kind kind, const char *name,
+                                      int version, struct shelf_entry *out)
+{
+    const struct fake *f = ctx;
+    const int wanted = version != 0 ? version : newest(f, kind, name);
+    for (int i = 0; i < f->n_entry; i++) {
+        const struct shelf_entry *e = &f->entry[i].entry;
+        if (f->entry[i].kind == kind && strcmp(e->name, name) == 0 && e->version == wanted) {
+            *out = copy_of(e, true);
+            return SERVICE_OK;
+        }
+    }
+    return SERVICE_NOT_FOUND;
+}
+
 static bool fake_ready(void *ctx, const char **why)
 {
     const struct fake *f = ctx;
@@ -255,7 +361,10 @@ struct fake *fake_create(void)
         (void)fprintf(stderr, "%s\n", fail.detail);
         abort();
     }
-    f->api = (struct api){.library = f->library, .service = &f->service};
+    f->shelf = (struct shelf){
+        .ctx = f, .put = fake_put, .drop = fake_drop, .list = fake_entries, .get = fake_entry};
+    library_attach(f->library, &f->shelf);
+    f->api = (struct api){.library = f->library, .service = &f->service, .shelf = &f->shelf};
     f->reply.send = take_answer;
     return f;
 }
@@ -267,6 +376,10 @@ void fake_reset(struct fake *f)
         f->job[i] = (struct fake_job){0};
     }
     f->n_job = 0;
+    for (int i = 0; i < f->n_entry; i++) {
+        shelf_entry_done(&f->entry[i].entry);
+    }
+    f->n_entry = 0;
 }
 
 void fake_destroy(struct fake *f)

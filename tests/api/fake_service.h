@@ -5,7 +5,7 @@
 
 #include "api/router.h"
 
-enum { FAKE_JOBS_MAX = 1100, FAKE_SAMPLES = 1000 };
+enum { FAKE_JOBS_MAX = 1100, FAKE_SAMPLES = 1000, FAKE_ENTRIES_MAX = 16 };
 
 struct fake_job {
     struct job_record record;
@@ -16,6 +16,13 @@ struct fake {
     struct service service;
     struct api api;
     struct library *library;
+    struct shelf shelf;
+    int n_entry;
+    struct fake_entry {
+        enum shelf_kind kind;
+        struct shelf_entry entry;
+    } entry[FAKE_ENTRIES_MAX];
+    bool in_use; /* no entry can be dropped */
     struct api_reply reply;
     enum service_status refuse; /* what submit and cancel answer instead of working */
     bool not_ready;
@@ -28,7 +35,7 @@ struct fake {
 /* Builds the service and the built-in library. */
 struct fake *fake_create(void);
 void fake_destroy(struct fake *f);
-/* Forgets every job. */
+/* Forgets every job and every entry. */
 void fake_reset(struct fake *f);
 
 /* Adds a job as a worker would have left it. Returns it. */

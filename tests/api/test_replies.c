@@ -154,6 +154,68 @@ static void test_replies(void **state)
     check_reply(f, "/v1/jobs/{id}", "DELETE");
 }
 
+static const char own_material[] =
+    "{\"name\":\"m\",\"e_l_pa\":2e9,\"e_t_pa\":2e9,\"g_lt_pa\":8e8,\"g_tt_pa\":8e8,\"nu_lt\":0.25,"
+    "\"nu_tt\":0.25,\"density_kg_m3\":1000}";
+static const char own_polar[] =
+    "{\"name\":\"p\",\"alpha_deg\":[-10,10],\"cl\":[[-1,1]],\"cm\":[[0,0]],"
+    "\"linear_from_deg\":-9,\"linear_to_deg\":9}";
+static const char own_network[] =
+    "{\"name\":\"n\",\"activation\":\"tanh\",\"inputs\":[\"alpha_rate\"],\"outputs\":[\"cl\"],"
+    "\"hidden\":1,\"input_offset\":[0],\"input_scale\":[1],\"output_offset\":[0],"
+    "\"output_scale\":[1],\"hull_min\":[-1],\"hull_max\":[1],\"w1\":[[1]],\"b1\":[0],"
+    "\"w2\":[[1]],\"b2\":[0]}";
+
+/* What is added shows in lists and entries in the same form as what is compiled in. */
+static void test_library_replies(void **state)
+{
+    static const struct {
+        const char *list, *entry, *target, *body;
+    } kinds[] = {{"/v1/materials", "/v1/materials/{name}", "/v1/materials/m", own_material},
+                 {"/v1/polars", "/v1/polars/{name}", "/v1/polars/p", own_polar},
+                 {"/v1/networks", "/v1/networks/{name}", "/v1/networks/n", own_network}};
+    static const struct {
+        enum service_status refuse;
+        const char *type, *body;
+        int status;
+    } bad[] = {{SERVICE_OK, "text/plain", "{}", 415},
+               {SERVICE_OK, "application/json", "{\"name\":", 400},
+               {SERVICE_OK, "application/json", "{\"name\":\"x\"}", 422},
+               {SERVICE_BUSY, "application/json", NULL, 503},
+               {SERVICE_DISK_FULL, "application/json", NULL, 507},
+               {SERVICE_ERROR, "application/json", NULL, 500}};
+    struct fixture *f = *state;
+    struct fake *fake = f->fake;
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        const char *list = kinds[i].list, *target = kinds[i].target;
+        for (int again = 0; again < 2; again++) {
+            assert_int_equal(fake_request(fake, "POST", list, "application/json", kinds[i].body),
+                             again ? 200 : 201);
+            check_reply(f, list, "POST");
+        }
+        assert_string_equal(fake_header(fake, "Location"), target);
+        assert_int_equal(fake_get(fake, list), 200);
+        check_reply(f, list, "GET");
+        assert_true(fake_says(fake, "\"built_in\":false"));
+        assert_int_equal(fake_get(fake, target), 200);
+        check_reply(f, kinds[i].entry, "GET");
+        for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
+            fake->refuse = bad[k].refuse;
+            assert_int_equal(fake_request(fake, "POST", list, bad[k].type,
+                                          bad[k].body != NULL ? bad[k].body : kinds[i].body),
+                             bad[k].status);
+            check_reply(f, list, "POST");
+        }
+        fake->refuse = SERVICE_OK;
+        assert_int_equal(fake_request(fake, "DELETE", target, NULL, NULL), 204);
+        check_reply(f, kinds[i].entry, "DELETE");
+        assert_int_equal(fake_request(fake, "DELETE", target, NULL, NULL), 404);
+        check_reply(f, kinds[i].entry, "DELETE");
+    }
+    assert_int_equal(fake_request(fake, "DELETE", "/v1/polars/flat-plate-linear", NULL, NULL), 409);
+    check_reply(f, "/v1/polars/{name}", "DELETE");
+}
+
 static void test_submit_replies(void **state)
 {
     struct fixture *f = *state;
@@ -230,6 +292,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_replies),
         TEST(test_submit_replies),
+        TEST(test_library_replies),
         TEST(test_checker_refuses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
