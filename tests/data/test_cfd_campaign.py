@@ -13,10 +13,12 @@ CFD = Path(__file__).resolve().parents[2] / "data" / "cfd"
 sys.path.insert(0, str(CFD / "campaign"))
 
 import build_harmonics  # noqa: E402
+import free_case        # noqa: E402
 import mesh             # noqa: E402
 import motion           # noqa: E402
 import record           # noqa: E402
 import run              # noqa: E402
+import run_free         # noqa: E402
 
 END = 40.0
 TERMS = ("5@0.125+0", "3@0.05+20 0.5@0.7+300", "4@0.03>0.2+45")
@@ -141,6 +143,44 @@ class Record(unittest.TestCase):
                 for key, value in zip(keys, expected):
                     # Half a unit of the last digit kept.
                     self.assertAlmostEqual(float(line[key]), value, delta=6e-5, msg=row["name"])
+
+
+class FreeSections(unittest.TestCase):
+    def test_springs_have_the_frequencies_asked_for(self):
+        row = row_of(mass="50", inertia="5", f_plunge="0.1", f_pitch="0.2", zeta_plunge="0.01",
+                     zeta_pitch="0.02")
+        (k_w, c_w), (k_a, c_a) = free_case.springs(row)
+        self.assertAlmostEqual(math.sqrt(k_w / 50.0) / (2.0 * math.pi), 0.1, places=12)
+        self.assertAlmostEqual(math.sqrt(k_a / 5.0) / (2.0 * math.pi), 0.2, places=12)
+        self.assertAlmostEqual(c_w / (2.0 * math.sqrt(k_w * 50.0)), 0.01, places=12)
+        self.assertAlmostEqual(c_a / (2.0 * math.sqrt(k_a * 5.0)), 0.02, places=12)
+
+    def test_motion_of_the_solver_is_turned_nose_up(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "state.dat"
+            path.write_text("# head\n0.4 (0 0.1 0.05) (0 0.1 0.05) (0 0 -3) (0 0.2 0) (0 0 -90)\n")
+            angle, rate, w, w_rate = run_free.motion_lines(path)[20]
+            self.assertEqual((angle, w, w_rate), (3.0, 0.1, 0.2))
+            self.assertAlmostEqual(rate, 0.5 * math.pi, places=12)
+
+    def test_committed_records_obey_their_equations_of_motion(self):
+        """m w'' + c w' + k w = c_l/2 and the same of the pitch, with differences of the recorded rates."""
+        for row in table("free/index.csv"):
+            (k_w, c_w), (k_a, c_a) = free_case.springs(row)
+            lines = [{k: float(v) for k, v in line.items()}
+                     for line in table("free/records/%s.csv" % row["name"])]
+            for inertia, k, c, x, x_dot, load, rest, unit in (
+                    (float(row["mass"]), k_w, c_w, "w", "w_dot", "cl", 0.0, 1.0),
+                    (float(row["inertia"]), k_a, c_a, "alpha_deg", "alpha_dot", "cm",
+                     float(row["mean_deg"]), math.pi / 180.0)):
+                errors, loads = [], []
+                for before, now, after in zip(lines[50:], lines[51:], lines[52:]):
+                    bend = (after[x_dot] - before[x_dot]) / (after["t"] - before["t"])
+                    force = inertia * bend + c * now[x_dot] + k * (now[x] - rest) * unit
+                    errors.append(force - 0.5 * now[load])
+                    loads.append(inertia * bend)
+                rms = [math.sqrt(sum(e * e for e in some) / len(some)) for some in (errors, loads)]
+                self.assertLess(rms[0], 0.02 * rms[1], (row["name"], x))
 
 
 class Queue(unittest.TestCase):
