@@ -1,5 +1,4 @@
-/* GET /v1/jobs, GET and DELETE /v1/jobs/{id}. */
-#include "api/case.h"
+/* GET /v1/jobs and /v1/studies, GET and DELETE /v1/jobs/{id}. */
 #include "api/job_out.h"
 #include "api/respond.h"
 #include "api/text.h"
@@ -35,11 +34,12 @@ static void read_list_query(const struct api_request *req, struct list_query *q,
     const char *state = api_query_get(req, "state");
     const char *limit = api_query_get(req, "limit");
     const char *cursor = api_query_get(req, "cursor");
-    enum case_kind kind_value = CASE_SIMULATION;
+    int kind_value = CASE_SIMULATION;
     enum job_state state_value = JOB_QUEUED;
     double number = LIST_LIMIT;
-    if (kind != NULL && !case_kind_parse(kind, &kind_value)) {
-        refuse_parameter(errors, "kind", kind, "\"simulation\", \"modes\" or \"section\"");
+    if (kind != NULL && !job_kind_parse(kind, &kind_value)) {
+        refuse_parameter(errors, "kind", kind,
+                         "a kind of job, such as \"simulation\" or \"study\"");
     }
     if (state != NULL && !job_state_parse(state, &state_value)) {
         refuse_parameter(errors, "state", state,
@@ -55,16 +55,17 @@ static void read_list_query(const struct api_request *req, struct list_query *q,
     }
     q->filter = (struct service_filter){.limit = (int)number,
                                         .after = cursor != NULL ? q->id : NULL,
-                                        .kind = kind != NULL ? (int)kind_value : -1,
+                                        .kind = kind != NULL ? kind_value : -1,
                                         .state = state != NULL ? (int)state_value : -1,
                                         .name = api_query_get(req, "name")};
 }
 
 /* The same list from the next page on, for the Link header. False when it does not fit one. */
-static bool next_url(const struct api_request *req, const char *cursor, size_t size, char *out)
+static bool next_url(const struct api_request *req, const char *path, const char *cursor,
+                     size_t size, char *out)
 {
     static const char *const kept[] = {"kind", "state", "name", "limit"};
-    size_t used = (size_t)snprintf(out, size, "/v1/jobs?");
+    size_t used = (size_t)snprintf(out, size, "%s?", path);
     for (size_t i = 0; i < sizeof kept / sizeof kept[0]; i++) {
         const char *value = api_query_get(req, kept[i]);
         if (value != NULL) {
@@ -83,20 +84,20 @@ static bool next_url(const struct api_request *req, const char *cursor, size_t s
     return used < size;
 }
 
-static void fill_list(const struct api_call *call, struct api_response *res, int n,
-                      const struct job_record *job, bool more)
+static void fill_list(const struct api_call *call, struct api_response *res, const char *path,
+                      int n, const struct job_record *job, bool more)
 {
     struct json_out out = {0};
     char cursor[TEXT_CURSOR_SIZE];
     char url[480];
     if (more && n > 0) {
         text_cursor_make(job[n - 1].id, cursor);
-        if (next_url(call->req, cursor, sizeof url, url)) {
+        if (next_url(call->req, path, cursor, sizeof url, url)) {
             api_response_header(res, "Link", "<%s>; rel=\"next\"", url);
         }
     }
     json_object_begin(&out);
-    json_key(&out, "jobs");
+    json_key(&out, strrchr(path, '/') + 1);
     json_array_begin(&out);
     for (int i = 0; i < n; i++) {
         job_write(&out, &job[i]);
@@ -107,7 +108,9 @@ static void fill_list(const struct api_call *call, struct api_response *res, int
     respond_json(res, 200, &out);
 }
 
-void handle_list(const struct api_call *call, struct api_response *res)
+/* Jobs of one kind, or with -1 those the query asks for. */
+static void list_jobs(const struct api_call *call, struct api_response *res, const char *path,
+                      int kind)
 {
     const struct service *s = call->api->service;
     struct list_query query;
@@ -117,6 +120,7 @@ void handle_list(const struct api_call *call, struct api_response *res)
         return;
     }
     read_list_query(call->req, &query, errors);
+    query.filter.kind = kind >= 0 ? kind : query.filter.kind;
     if (errors->total > 0) {
         problem_response(res, PROBLEM_BAD_QUERY, errors->item[0].detail, errors, NULL);
     } else {
@@ -125,13 +129,23 @@ void handle_list(const struct api_call *call, struct api_response *res)
         bool more = false;
         const enum service_status st = s->list(s->ctx, &query.filter, &job, &n, &more);
         if (st == SERVICE_OK) {
-            fill_list(call, res, n, job, more);
+            fill_list(call, res, path, n, job, more);
         } else {
             respond_service(res, st, "");
         }
         free(job);
     }
     free(errors);
+}
+
+void handle_list(const struct api_call *call, struct api_response *res)
+{
+    list_jobs(call, res, "/v1/jobs", -1);
+}
+
+void handle_study_list(const struct api_call *call, struct api_response *res)
+{
+    list_jobs(call, res, "/v1/studies", JOB_STUDY);
 }
 
 void handle_get(const struct api_call *call, struct api_response *res)

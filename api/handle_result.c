@@ -22,9 +22,12 @@ void handle_case(const struct api_call *call, struct api_response *res)
     respond_tagged(call, res, "application/json", respond_immutable, json, strlen(json));
 }
 
-static bool kind_has(enum case_kind kind, const char *document)
+static bool kind_has(int kind, const char *document)
 {
-    const char *const *list = result_documents(kind);
+    if (kind == JOB_STUDY) {
+        return false;
+    }
+    const char *const *list = result_documents((enum case_kind)kind);
     for (int i = 0; list[i] != NULL; i++) {
         if (strcmp(list[i], document) == 0) {
             return true;
@@ -45,7 +48,7 @@ void handle_document(const struct api_call *call, struct api_response *res)
     if (!kind_has(job.kind, document)) {
         char detail[128];
         (void)snprintf(detail, sizeof detail, "a job of kind \"%s\" has no %s",
-                       case_kind_name(job.kind), document);
+                       job_kind_name(job.kind), document);
         problem_response(res, PROBLEM_NO_DOCUMENT, detail, NULL, NULL);
         return;
     }

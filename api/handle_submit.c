@@ -1,8 +1,10 @@
-/* POST /v1/jobs: one case, or a batch that is taken whole or not at all. */
+/* POST /v1/jobs: one case, a study, or a batch of cases that is taken whole or not at all; POST
+ * /v1/studies: a study. */
 #include "api/case.h"
 #include "api/json.h"
 #include "api/reader.h"
 #include "api/respond.h"
+#include "api/study.h"
 
 #include <assert.h>
 #include <cjson/cJSON.h>
@@ -64,7 +66,7 @@ static void write_submitted(struct json_out *out, const struct service_submit *i
     json_key_string(out, "state", job_state_name(r->state));
     json_key(out, "reused");
     json_boolean(out, r->reused);
-    json_key_string(out, "kind", case_kind_name(item->kind));
+    json_key_string(out, "kind", job_kind_name(item->kind));
     json_key_string(out, "name", item->name);
     json_key_string(out, "content_hash", item->content_hash);
     json_key(out, "links");
@@ -182,48 +184,93 @@ static void refuse(struct api_response *res, enum problem p, const struct failur
     problem_response(res, p, detail, problems, NULL);
 }
 
-void handle_submit(const struct api_call *call, struct api_response *res)
+/* The tree of the body; NULL when the answer is given. */
+static cJSON *read_body(const struct api_call *call, struct api_response *res)
 {
-    const struct api_request *req = call->req;
-    const struct service *service = call->api->service;
     cJSON *tree = NULL;
-    struct submission *s = NULL;
     struct failure fail;
-    if (!respond_is_json(call, res)) {
-        return;
+    if (!respond_is_json(call, res) ||
+        json_parse(call->req->body, call->req->body_size, &tree, &fail) == ST_OK) {
+        return tree;
     }
     struct failure_list *problems = calloc(1, sizeof *problems);
-    if (problems == NULL) {
-        goto no_memory;
-    }
-    if (json_parse(req->body, req->body_size, &tree, &fail) != ST_OK) {
+    if (problems != NULL) {
         *failure_add(problems) = fail;
         refuse(res, fail.status == ST_INVALID ? PROBLEM_MALFORMED_JSON : PROBLEM_INTERNAL,
                problems);
-        goto out;
+    } else {
+        problem_response(res, PROBLEM_INTERNAL, status_text(ST_NO_MEMORY), NULL, NULL);
     }
-    s = parse_cases(call, tree, problems);
-    if (s == NULL) {
-        goto no_memory;
-    }
-    if (!s->batch && req->body_size > CASE_BODY_MAX) {
+    free(problems);
+    return NULL;
+}
+
+static void submit_cases(const struct api_call *call, const cJSON *tree,
+                         struct failure_list *problems, struct api_response *res)
+{
+    const struct service *service = call->api->service;
+    struct submission *s = parse_cases(call, tree, problems);
+    if (s == NULL || reader_ran_out_of_memory(problems)) {
+        problem_response(res, PROBLEM_INTERNAL, status_text(ST_NO_MEMORY), NULL, NULL);
+    } else if (!s->batch && call->req->body_size > CASE_BODY_MAX) {
         problem_response(res, PROBLEM_TOO_LARGE, "one case may have 1 MiB; a batch 16 MiB", NULL,
                          NULL);
-    } else if (reader_ran_out_of_memory(problems)) {
-        goto no_memory;
     } else if (problems->total > 0) {
         refuse(res, PROBLEM_INVALID_CASE, problems);
     } else {
         service->submit(service->ctx, s->n, s->item, submit_done, s);
         s = NULL; /* submit_done has it, perhaps has freed it */
     }
-    goto out;
-no_memory:
-    problem_response(res, PROBLEM_INTERNAL, status_text(ST_NO_MEMORY), NULL, NULL);
-out:
     if (s != NULL) {
         submission_destroy(s);
     }
-    json_free(tree);
+}
+
+static void submit_study(const struct api_call *call, const cJSON *tree,
+                         struct failure_list *problems, struct api_response *res)
+{
+    struct study *study = NULL;
+    struct reader r;
+    reader_init(&r, "", problems);
+    json_check(&r, tree);
+    enum status st = ST_INVALID;
+    if (problems->total == 0) {
+        st = study_from_tree(call->api->library, tree, &study, problems);
+    }
+    if (st == ST_OK) {
+        study_submit(call, study, res);
+        study_destroy(study);
+    } else if (st == ST_NO_MEMORY || reader_ran_out_of_memory(problems)) {
+        problem_response(res, PROBLEM_INTERNAL, status_text(ST_NO_MEMORY), NULL, NULL);
+    } else {
+        refuse(res, PROBLEM_INVALID_CASE, problems);
+    }
+}
+
+static void submit(const struct api_call *call, struct api_response *res, bool only_study)
+{
+    cJSON *tree = read_body(call, res);
+    if (tree == NULL) {
+        return;
+    }
+    struct failure_list *problems = calloc(1, sizeof *problems);
+    if (problems == NULL) {
+        problem_response(res, PROBLEM_INTERNAL, status_text(ST_NO_MEMORY), NULL, NULL);
+    } else if (only_study || study_is_one(tree)) {
+        submit_study(call, tree, problems, res);
+    } else {
+        submit_cases(call, tree, problems, res);
+    }
     free(problems);
+    json_free(tree);
+}
+
+void handle_submit(const struct api_call *call, struct api_response *res)
+{
+    submit(call, res, false);
+}
+
+void handle_study_submit(const struct api_call *call, struct api_response *res)
+{
+    submit(call, res, true);
 }

@@ -21,14 +21,26 @@ static void write_link(struct json_out *out, const char *id, const char *name, c
     json_key_string(out, name, path);
 }
 
+static void write_study_links(struct json_out *out, const char *id)
+{
+    static const char *const name[][2] = {{"study", ""}, {"cells", "/cells"}, {"map", "/map"}};
+    for (size_t i = 0; i < sizeof name / sizeof name[0]; i++) {
+        char path[96];
+        (void)snprintf(path, sizeof path, "/v1/studies/%s%s", id, name[i][1]);
+        json_key_string(out, name[i][0], path);
+    }
+}
+
 static void write_links(struct json_out *out, const struct job_record *job)
 {
     json_key(out, "links");
     json_object_begin(out);
     write_link(out, job->id, "self", "");
     write_link(out, job->id, "case", "case");
-    if (job->state == JOB_DONE) {
-        const char *const *document = result_documents(job->kind);
+    if (job->kind == JOB_STUDY) {
+        write_study_links(out, job->id);
+    } else if (job->state == JOB_DONE) {
+        const char *const *document = result_documents((enum case_kind)job->kind);
         for (int i = 0; document[i] != NULL; i++) {
             write_link(out, job->id, document[i], document[i]);
         }
@@ -39,11 +51,10 @@ static void write_links(struct json_out *out, const struct job_record *job)
     json_object_end(out);
 }
 
-void job_write(struct json_out *out, const struct job_record *job)
+void job_write_members(struct json_out *out, const struct job_record *job)
 {
-    json_object_begin(out);
     json_key_string(out, "id", job->id);
-    json_key_string(out, "kind", case_kind_name(job->kind));
+    json_key_string(out, "kind", job_kind_name(job->kind));
     json_key_string(out, "state", job_state_name(job->state));
     json_key_string(out, "name", job->name);
     json_key_number(out, "progress", job->progress);
@@ -63,5 +74,11 @@ void job_write(struct json_out *out, const struct job_record *job)
     }
     json_key_string(out, "content_hash", job->content_hash);
     write_links(out, job);
+}
+
+void job_write(struct json_out *out, const struct job_record *job)
+{
+    json_object_begin(out);
+    job_write_members(out, job);
     json_object_end(out);
 }

@@ -16,6 +16,7 @@
     X(PROBLEM_UNKNOWN_PATH, "unknown_path", 404, "There is no such resource")                      \
     X(PROBLEM_UNKNOWN_JOB, "unknown_job", 404, "There is no such job")                             \
     X(PROBLEM_NO_DOCUMENT, "no_document", 404, "The job has no such result")                       \
+    X(PROBLEM_NO_CELL, "no_cell", 404, "The study has no such cell")                               \
     X(PROBLEM_UNKNOWN_NAME, "unknown_name", 404, "The library has no entry of this name")          \
     X(PROBLEM_METHOD, "method_not_allowed", 405, "The resource does not answer this method")       \
     X(PROBLEM_BUILT_IN, "built_in", 409, "The entry belongs to the program")                       \

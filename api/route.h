@@ -14,6 +14,7 @@ struct api_call {
     struct api_reply *reply;
     const struct route *route;
     char param[ROUTE_PARAM_SIZE]; /* decoded {id} or {name}, "" when the path has none */
+    char tail[ROUTE_PARAM_SIZE];  /* the second parameter of a path that has two, else "" */
 };
 
 /* Fills *res, which the router sends; or leaves res->status 0 and sends its own answer to
@@ -22,7 +23,7 @@ typedef void (*route_handler)(const struct api_call *call, struct api_response *
 
 struct route {
     const char *method;
-    const char *path; /* as in the OpenAPI document: {id} is one segment, {name} the rest */
+    const char *path; /* as in the OpenAPI document: {name} is the rest, others one segment */
     route_handler handler;
     const char *const *query; /* keys the route knows; NULL = none; ends with NULL */
     const char *document;     /* result routes: the document they show */
@@ -32,8 +33,21 @@ extern const struct route route_table[]; /* ends with a NULL method */
 
 /* handle_submit.c */
 void handle_submit(const struct api_call *call, struct api_response *res);
+void handle_study_submit(const struct api_call *call, struct api_response *res);
+/* handle_study.c; the study is the caller's */
+struct study;
+void study_submit(const struct api_call *call, struct study *study, struct api_response *res);
+bool study_find(const struct api_call *call, struct api_response *res, struct job_record *job,
+                struct service_study *study);
+struct study *study_of_job(const struct api_call *call, struct api_response *res, const char *id);
+void handle_study(const struct api_call *call, struct api_response *res);
+void handle_cells(const struct api_call *call, struct api_response *res);
+void handle_cell(const struct api_call *call, struct api_response *res);
+/* handle_map.c */
+void handle_map(const struct api_call *call, struct api_response *res);
 /* handle_jobs.c */
 void handle_list(const struct api_call *call, struct api_response *res);
+void handle_study_list(const struct api_call *call, struct api_response *res);
 void handle_get(const struct api_call *call, struct api_response *res);
 void handle_cancel(const struct api_call *call, struct api_response *res);
 /* handle_result.c */

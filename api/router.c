@@ -12,6 +12,9 @@ enum { BODY_MAX = 1 << 20, BATCH_BODY_MAX = 16 << 20 };
 
 static const char *const list_query[] = {"kind", "state", "name", "limit", "cursor", NULL};
 static const char *const version_query[] = {"version", NULL};
+static const char *const study_list_query[] = {"state", "name", "limit", "cursor", NULL};
+static const char *const cells_query[] = {"from", "limit", NULL};
+static const char *const map_query[] = {"value", NULL};
 static const char *const series_query[] = {"channels", "from_s", "to_s", "points", "format", NULL};
 
 const struct route route_table[] = {
@@ -28,6 +31,14 @@ const struct route route_table[] = {
     {"GET", "/v1/jobs/{id}/stability", handle_document, NULL, "stability"},
     {"GET", "/v1/jobs/{id}/static", handle_document, NULL, "static"},
     {"GET", "/v1/jobs/{id}/summary", handle_document, NULL, "summary"},
+    {"POST", "/v1/studies", handle_study_submit, NULL, NULL},
+    {"GET", "/v1/studies", handle_study_list, study_list_query, NULL},
+    {"GET", "/v1/studies/{id}", handle_study, NULL, NULL},
+    {"DELETE", "/v1/studies/{id}", handle_cancel, NULL, NULL},
+    {"GET", "/v1/studies/{id}/case", handle_case, NULL, NULL},
+    {"GET", "/v1/studies/{id}/cells", handle_cells, cells_query, NULL},
+    {"GET", "/v1/studies/{id}/cells/{cell}", handle_cell, NULL, NULL},
+    {"GET", "/v1/studies/{id}/map", handle_map, map_query, NULL},
     {"GET", "/v1/materials", handle_materials, NULL, NULL},
     {"POST", "/v1/materials", handle_add_material, NULL, NULL},
     {"GET", "/v1/materials/{name}", handle_materials, version_query, NULL},
@@ -48,15 +59,23 @@ const struct route route_table[] = {
 
 size_t router_body_max(const char *method, const char *path)
 {
-    const bool batch = strcmp(method, "POST") == 0 && strcmp(path, "/v1/jobs") == 0;
-    return batch ? BATCH_BODY_MAX : BODY_MAX;
+    const bool many = strcmp(path, "/v1/jobs") == 0 || strcmp(path, "/v1/studies") == 0;
+    return many && strcmp(method, "POST") == 0 ? BATCH_BODY_MAX : BODY_MAX;
 }
 
-/* Whether a path has the shape of a pattern; its parameter, still encoded, is path[*at .. +*n]. */
-static bool path_matches(const char *pattern, const char *path, size_t *at, size_t *n)
+/* Where the parameters of a path are, still encoded. */
+struct path_part {
+    size_t at, n;
+};
+enum { PATH_PARAMS_MAX = 2 };
+
+/* Whether a path has the shape of a pattern; *part are its parameters, empty when it has fewer. */
+static bool path_matches(const char *pattern, const char *path,
+                         struct path_part part[PATH_PARAMS_MAX])
 {
-    *at = *n = 0;
     size_t p = 0, i = 0;
+    int k = 0;
+    memset(part, 0, PATH_PARAMS_MAX * sizeof *part);
     while (pattern[p] != '\0') {
         if (pattern[p] != '{') {
             if (pattern[p++] != path[i++]) {
@@ -64,13 +83,13 @@ static bool path_matches(const char *pattern, const char *path, size_t *at, size
             }
             continue;
         }
+        assert(k < PATH_PARAMS_MAX);
         const bool rest = strcmp(pattern + p, "{name}") == 0;
-        *at = i;
-        *n = rest ? strlen(path + i) : strcspn(path + i, "/");
-        if (*n == 0) {
+        part[k] = (struct path_part){i, rest ? strlen(path + i) : strcspn(path + i, "/")};
+        if (part[k].n == 0) {
             return false;
         }
-        i += *n;
+        i += part[k++].n;
         p += strcspn(pattern + p, "}") + 1;
     }
     return path[i] == '\0';
@@ -85,10 +104,11 @@ static bool method_is(const struct route *route, const char *method)
 /* "GET, HEAD, POST, OPTIONS": what the routes with this path answer. "" for an unknown path. */
 static void allowed_methods(const char *path, size_t size, char *out)
 {
-    size_t at = 0, n = 0, used = 0;
+    struct path_part part[PATH_PARAMS_MAX];
+    size_t used = 0;
     out[0] = '\0';
     for (const struct route *t = route_table; t->method != NULL; t++) {
-        if (path_matches(t->path, path, &at, &n)) {
+        if (path_matches(t->path, path, part)) {
             const bool get = strcmp(t->method, "GET") == 0;
             used +=
                 (size_t)snprintf(out + used, size - used, "%s, %s", t->method, get ? "HEAD, " : "");
@@ -159,13 +179,16 @@ static void answer(struct api_call *call, struct api_response *res)
     const struct api_request *req = call->req;
     char allow[96];
     char detail[400];
-    size_t at = 0, n = 0;
+    struct path_part part[PATH_PARAMS_MAX];
     for (const struct route *t = route_table; t->method != NULL; t++) {
-        if (!method_is(t, req->method) || !path_matches(t->path, req->path, &at, &n)) {
+        if (!method_is(t, req->method) || !path_matches(t->path, req->path, part)) {
             continue;
         }
         call->route = t;
-        if (!text_percent_decode(req->path + at, n, sizeof call->param, call->param)) {
+        if (!text_percent_decode(req->path + part[0].at, part[0].n, sizeof call->param,
+                                 call->param) ||
+            !text_percent_decode(req->path + part[1].at, part[1].n, sizeof call->tail,
+                                 call->tail)) {
             problem_response(res, PROBLEM_BAD_PATH, "broken percent-encoding or name too long",
                              NULL, NULL);
         } else if (query_is_known(call, res)) {

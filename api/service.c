@@ -1,5 +1,7 @@
 #include "api/service.h"
 
+#include "api/case.h"
+
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +27,37 @@ bool job_state_parse(const char *name, enum job_state *out)
         }
     }
     return false;
+}
+
+static const char study_kind[] = "study";
+
+const char *job_kind_name(int kind)
+{
+    assert(kind >= 0);
+    assert(kind < JOB_KIND_COUNT);
+    return kind == JOB_STUDY ? study_kind : case_kind_name((enum case_kind)kind);
+}
+
+bool job_kind_parse(const char *name, int *out)
+{
+    enum case_kind kind = CASE_SIMULATION;
+    if (strcmp(name, study_kind) == 0) {
+        *out = JOB_STUDY;
+        return true;
+    }
+    if (!case_kind_parse(name, &kind)) {
+        return false;
+    }
+    *out = (int)kind;
+    return true;
+}
+
+void service_cells_done(struct service_cell *cell, int n)
+{
+    for (int i = 0; i < n; i++) {
+        free(cell[i].summary);
+        cell[i].summary = NULL;
+    }
 }
 
 void series_data_done(struct series_data *data)

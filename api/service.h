@@ -8,6 +8,7 @@
 #ifndef AEROM_API_SERVICE_H
 #define AEROM_API_SERVICE_H
 
+#include "api/study_map.h"
 #include "core/case_def.h"
 
 #include <stdbool.h>
@@ -28,6 +29,11 @@ enum { JOB_ID_SIZE = 37 }; /* UUIDv7 as text with its terminating zero */
 enum job_state { JOB_STATE_LIST(JOB_STATE_ENUM) JOB_STATE_COUNT };
 #undef JOB_STATE_ENUM
 
+/* Kind of a job: that of its case, enum case_kind, or a study. */
+enum { JOB_STUDY = CASE_KIND_COUNT, JOB_KIND_COUNT };
+const char *job_kind_name(int kind); /* "simulation" ... "study" */
+bool job_kind_parse(const char *name, int *out);
+
 const char *job_state_name(enum job_state state);
 bool job_state_parse(const char *name, enum job_state *out);
 
@@ -43,10 +49,11 @@ enum service_status {
 
 /* One accepted case on its way in. All text is borrowed until the callback has been called. */
 struct service_submit {
-    enum case_kind kind;
-    const char *name;         /* label of the case, may be "" */
-    const char *case_json;    /* canonical case, every default filled in */
-    const char *content_hash; /* identity of case + core + library entries, hexadecimal */
+    int kind;                      /* job_kind_name */
+    const char *name;              /* label of the case, may be "" */
+    const char *case_json;         /* canonical case or study, every default filled in */
+    const char *content_hash;      /* identity of case + core + library entries, hexadecimal */
+    const struct study_plan *plan; /* how a study is cut (api/study.h); NULL for a case */
 };
 
 struct service_submitted {
@@ -58,7 +65,7 @@ struct service_submitted {
 /* What a list shows and GET /v1/jobs/{id} returns. */
 struct job_record {
     char id[JOB_ID_SIZE];
-    enum case_kind kind;
+    int kind; /* job_kind_name */
     enum job_state state;
     char name[128];
     char content_hash[LIMIT_HASH];
@@ -73,10 +80,30 @@ struct job_record {
 struct service_filter {
     int limit;         /* 1..1000 */
     const char *after; /* id of the last job of the previous page, NULL = from the newest */
-    int kind;          /* enum case_kind or -1 */
+    int kind;          /* as of a job, or -1 */
     int state;         /* enum job_state or -1 */
     const char *name;  /* exact label or NULL */
 };
+
+/* How far a study is. */
+struct service_study {
+    int n_cell, done, failed;
+    int reused;   /* of the done: known before, from another study or a job */
+    double cpu_s; /* of the cells it computed itself */
+};
+
+/* A finished cell of a study. */
+struct service_cell {
+    int cell;
+    enum study_cell_state state;
+    bool reused;
+    char content_hash[LIMIT_HASH];
+    char verdict[24];
+    char error_code[40], error_detail[512];
+    double cpu_s;
+    char *summary; /* JSON text; NULL when the cell failed, or when it was not asked for */
+};
+void service_cells_done(struct service_cell *cell, int n);
 
 /* Recorded series as stored: columns in presented units (api/channel.h). */
 struct series_column {
@@ -122,6 +149,13 @@ struct service {
                                       struct series_data *out, int *bad_channel);
     /* Names of the recorded columns, as one malloc'ed array of char[64]. */
     enum service_status (*get_columns)(void *ctx, const char *id, char (**out)[64], int *n);
+
+    /* SERVICE_NOT_FOUND when the job is no study. */
+    enum service_status (*get_study)(void *ctx, const char *id, struct service_study *out);
+    /* Finished cells with numbers of at least `from`, in order, at most `limit` of them; with their
+     * summaries if asked for. Freed with service_cells_done and free. */
+    enum service_status (*get_cells)(void *ctx, const char *id, int from, int limit, bool summaries,
+                                     struct service_cell **out, int *n);
 
     /* Ready to take work; *why (borrowed, static) says what is missing when not. */
     bool (*ready)(void *ctx, const char **why);

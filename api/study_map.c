@@ -66,7 +66,10 @@ static const struct {
     {"damping.tip_plunge", "damping.tip_plunge.roots.0.ratio"},
 };
 
-/* The member or entry a part of a path names; NULL when there is none. */
+/* Stands for what a longer list would hold. */
+static const cJSON nothing = {.type = cJSON_NULL};
+
+/* The member or entry a part of a path names; NULL when no summary could have it. */
 static const cJSON *step(const cJSON *at, const char *part)
 {
     if (!cJSON_IsArray(at)) {
@@ -75,13 +78,14 @@ static const cJSON *step(const cJSON *at, const char *part)
     char *end = NULL;
     const long index = strtol(part, &end, 10);
     const bool whole = part[0] >= '0' && part[0] <= '9' && *end == '\0' && index < 100000;
-    return whole ? cJSON_GetArrayItem(at, (int)index) : NULL;
+    const cJSON *entry = whole ? cJSON_GetArrayItem(at, (int)index) : NULL;
+    return whole && entry == NULL ? &nothing : entry;
 }
 
 static const cJSON *follow(const cJSON *at, const char *path)
 {
     char part[PATH_SIZE];
-    while (at != NULL && *path != '\0') {
+    while (at != NULL && !cJSON_IsNull(at) && *path != '\0') {
         const size_t n = strcspn(path, ".");
         (void)snprintf(part, sizeof part, "%.*s", (int)n, path);
         at = step(at, part);
@@ -112,7 +116,7 @@ enum study_value_kind study_value(const struct cJSON *summary, const char *path,
 {
     const cJSON *item = find(summary, path);
     if (item == NULL || cJSON_IsNull(item)) {
-        return STUDY_VALUE_MISSING;
+        return item == NULL ? STUDY_VALUE_ABSENT : STUDY_VALUE_MISSING;
     }
     if (cJSON_IsNumber(item) || cJSON_IsBool(item)) {
         *number = cJSON_IsNumber(item) ? item->valuedouble : (cJSON_IsTrue(item) ? 1.0 : 0.0);
@@ -142,8 +146,8 @@ static int class_of(struct study_map *m, const char *text)
     return m->n_class++;
 }
 
-bool study_map_set(struct study_map *m, int cell, enum study_cell_state state,
-                   const struct cJSON *summary)
+enum study_value_kind study_map_set(struct study_map *m, int cell, enum study_cell_state state,
+                                    const struct cJSON *summary)
 {
     assert(cell >= 0);
     assert(cell < m->n_cell);
@@ -151,7 +155,7 @@ bool study_map_set(struct study_map *m, int cell, enum study_cell_state state,
     const char *text = "";
     m->status[cell] = (unsigned char)state;
     if (state != STUDY_CELL_DONE || summary == NULL) {
-        return true;
+        return STUDY_VALUE_MISSING;
     }
     const enum study_value_kind kind = study_value(summary, m->value_name, &number, &text);
     if (kind == STUDY_VALUE_NUMBER) {
@@ -160,10 +164,27 @@ bool study_map_set(struct study_map *m, int cell, enum study_cell_state state,
         const int index = class_of(m, text);
         m->value[cell] = index >= 0 ? index : (double)NAN;
     }
-    return kind != STUDY_VALUE_NONE;
+    return kind;
 }
 
 /* -- as JSON ---------------------------------------------------------------------------- */
+
+void study_map_point(struct json_out *out, const struct study_map *m, int cell)
+{
+    int at[STUDY_AXES_MAX];
+    for (int d = m->n_dimension - 1; d >= 0; d--) {
+        at[d] = cell % m->shape[d];
+        cell /= m->shape[d];
+    }
+    for (int i = 0; i < m->n_axis; i++) {
+        const struct study_axis_view *a = &m->axis[i];
+        if (a->value != NULL) {
+            json_key_number(out, a->pointer, a->value[at[a->dimension]]);
+        } else {
+            json_key_string(out, a->pointer, a->label[at[a->dimension]]);
+        }
+    }
+}
 
 static void write_axis(struct json_out *out, const struct study_axis_view *a)
 {

@@ -58,7 +58,8 @@ const char *study_map_class(const struct study_map *m, int cell);
 
 /* What a path leads to in a summary. */
 enum study_value_kind {
-    STUDY_VALUE_MISSING, /* null, or not there */
+    STUDY_VALUE_ABSENT,  /* not there */
+    STUDY_VALUE_MISSING, /* null */
     STUDY_VALUE_NUMBER,  /* also true and false: 1 and 0 */
     STUDY_VALUE_TEXT,
     STUDY_VALUE_NONE /* an object or an array: no value of a map */
@@ -70,10 +71,13 @@ enum study_value_kind {
 enum study_value_kind study_value(const struct cJSON *summary, const char *path, double *number,
                                   const char **text);
 
-/* Enters a finished cell; false when its value is no value of a map. A text beyond the maximum of
- * classes counts as missing. */
-bool study_map_set(struct study_map *m, int cell, enum study_cell_state state,
-                   const struct cJSON *summary);
+/* Enters a finished cell and tells what its value is; a failed one has none (summary NULL) and
+ * counts as missing, as does a text beyond the maximum of classes. */
+enum study_value_kind study_map_set(struct study_map *m, int cell, enum study_cell_state state,
+                                    const struct cJSON *summary);
+
+/* Members of an object: the values of the axes at a cell, by pointer. */
+void study_map_point(struct json_out *out, const struct study_map *m, int cell);
 
 /* Members "value", "axes", "shape", "values" and "status", the last two as nested lists. */
 void study_map_members(struct json_out *out, const struct study_map *m);

@@ -60,7 +60,8 @@ static enum app_exit load_library(struct app *a)
 
 static struct worker_env environment(const struct app *a)
 {
-    return (struct worker_env){.writer = a->writer,
+    return (struct worker_env){.store = a->store,
+                               .writer = a->writer,
                                .dispatch = a->dispatch,
                                .library = a->library,
                                .log = a->log,

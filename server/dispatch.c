@@ -74,38 +74,39 @@ struct sim_control dispatch_control(struct dispatch *d, int slot)
                                 .progress = &d->slot[slot].progress};
 }
 
-/* Slot that runs a job, NULL when none; the mutex is held. */
-static struct slot *find(struct dispatch *d, const char *id, int64_t fence)
+/* Whether a slot runs a job, or a unit of it; the mutex is held. */
+static bool runs(const struct slot *s, const char *id, int64_t fence)
 {
-    for (int i = 0; i < d->n_slot; i++) {
-        const struct store_ticket *t = &d->slot[i].ticket;
-        if (t->id[0] != '\0' && strcmp(t->id, id) == 0 && (fence == 0 || t->fence == fence)) {
-            return &d->slot[i];
-        }
-    }
-    return NULL;
+    const struct store_ticket *t = &s->ticket;
+    return t->id[0] != '\0' && strcmp(t->id, id) == 0 && (fence == 0 || t->fence == fence);
 }
 
 bool dispatch_cancel(struct dispatch *d, const char *id, int64_t fence)
 {
+    bool found = false;
     (void)pthread_mutex_lock(&d->mutex);
-    struct slot *s = find(d, id, fence);
-    if (s != NULL) {
-        atomic_store(&s->cancel, true);
+    for (int i = 0; i < d->n_slot; i++) {
+        if (runs(&d->slot[i], id, fence)) {
+            atomic_store(&d->slot[i].cancel, true);
+            found = true;
+        }
     }
     (void)pthread_mutex_unlock(&d->mutex);
-    return s != NULL;
+    return found;
 }
 
 bool dispatch_progress(struct dispatch *d, const char *id, double *out)
 {
+    bool found = false;
     (void)pthread_mutex_lock(&d->mutex);
-    struct slot *s = find(d, id, 0);
-    if (s != NULL) {
-        *out = atomic_load(&s->progress);
+    for (int i = 0; i < d->n_slot && !found; i++) {
+        if (runs(&d->slot[i], id, 0) && d->slot[i].ticket.unit == 0) {
+            *out = atomic_load(&d->slot[i].progress);
+            found = true;
+        }
     }
     (void)pthread_mutex_unlock(&d->mutex);
-    return s != NULL;
+    return found;
 }
 
 int dispatch_tickets(struct dispatch *d, struct store_ticket *out)

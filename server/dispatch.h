@@ -24,10 +24,10 @@ void dispatch_leave(struct dispatch *d, int slot);
 /* How the core watches the job of a slot; valid as long as the dispatch. */
 struct sim_control dispatch_control(struct dispatch *d, int slot);
 
-/* Asks the running job to stop; false when no slot runs it. A fence other than 0 means this claim
- * of the job only. */
+/* Asks the running job, or all running units of a study, to stop; false when no slot runs any. A
+ * fence other than 0 means this claim only. */
 bool dispatch_cancel(struct dispatch *d, const char *id, int64_t fence);
-/* Progress 0..1 of a running job; false when no slot runs it. */
+/* Progress 0..1 of a running job; false when no slot runs it as a whole. */
 bool dispatch_progress(struct dispatch *d, const char *id, double *out);
 /* Tickets of all running jobs; `out` has room for n_slot. Returns their number. */
 int dispatch_tickets(struct dispatch *d, struct store_ticket *out);

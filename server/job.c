@@ -1,7 +1,6 @@
 #include "server/job.h"
 
 #include <assert.h>
-#include <string.h>
 
 #define TO(state) (1U << (state))
 
@@ -13,11 +12,6 @@ static const unsigned moves[JOB_STATE_COUNT] = {
     [JOB_DONE] = 0,
     [JOB_FAILED] = 0,
     [JOB_CANCELLED] = 0,
-};
-
-static const char *const kind_names[] = {
-    [CASE_SIMULATION] = "simulation", [CASE_MODES] = "modes",         [CASE_SECTION] = "section",
-    [CASE_STATIC] = "static",         [CASE_STABILITY] = "stability", [CASE_LOOP] = "loop",
 };
 
 bool job_move_allowed(enum job_state from, enum job_state to)
@@ -47,21 +41,4 @@ bool job_invariant(const struct job_record *job, bool has_queue_row)
            (job->started_us != 0) == claimed && (job->error_code[0] != '\0') == failed &&
            (claimed || (job->state != JOB_RUNNING && job->state != JOB_DONE)) &&
            (job->verdict[0] == '\0' || job->state == JOB_DONE);
-}
-
-const char *job_kind_name(enum case_kind kind)
-{
-    assert((size_t)kind < sizeof kind_names / sizeof kind_names[0]);
-    return kind_names[kind];
-}
-
-bool job_kind_parse(const char *name, enum case_kind *out)
-{
-    for (size_t i = 0; i < sizeof kind_names / sizeof kind_names[0]; i++) {
-        if (strcmp(name, kind_names[i]) == 0) {
-            *out = (enum case_kind)i;
-            return true;
-        }
-    }
-    return false;
 }

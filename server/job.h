@@ -20,11 +20,7 @@ bool job_is_final(enum job_state state);
 bool job_is_reusable(enum job_state state);
 
 /* What must hold for a stored job of this record: started iff claimed, finished iff final, an error
- * iff failed, a queue row iff not final. */
+ * iff failed, a queue row (units, for a study) iff not final. */
 bool job_invariant(const struct job_record *job, bool has_queue_row);
-
-/* Stored name of a kind ("simulation" ...). */
-const char *job_kind_name(enum case_kind kind);
-bool job_kind_parse(const char *name, enum case_kind *out);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "server/clock.h"
 #include "server/id.h"
+#include "server/pack.h"
 #include "server/series_read.h"
 
 #include <assert.h>
@@ -251,6 +252,62 @@ static enum service_status service_get_document(void *ctx, const char *id, const
     return r == NULL ? SERVICE_ERROR : give(s, r, r->ops->get_document(r, id, document, json));
 }
 
+/* -- studies ---------------------------------------------------------------------------- */
+
+static enum service_status service_get_study(void *ctx, const char *id, struct service_study *out)
+{
+    const struct service_impl *s = ctx;
+    struct store_session *r = take(s);
+    return r == NULL ? SERVICE_ERROR : give(s, r, r->ops->get_study(r, id, out));
+}
+
+/* Cells with their summaries unpacked; false when one is damaged, or memory ran out. */
+static bool unpack_cells(const struct store_cell_row *row, int n, struct service_cell *out)
+{
+    bool ok = true;
+    for (int i = 0; i < n; i++) {
+        out[i] = row[i].cell;
+        if (row[i].packed != NULL) {
+            out[i].summary = unpack_text(row[i].packed, row[i].packed_size, row[i].size);
+            ok = ok && out[i].summary != NULL;
+        }
+    }
+    return ok;
+}
+
+static enum service_status service_get_cells(void *ctx, const char *id, int from, int limit,
+                                             bool summaries, struct service_cell **out, int *n)
+{
+    const struct service_impl *s = ctx;
+    struct store_session *r = take(s);
+    if (r == NULL) {
+        return SERVICE_ERROR;
+    }
+    struct store_cell_row *row = NULL;
+    int count = 0;
+    const enum service_status st =
+        give(s, r, r->ops->get_cells(r, id, from, limit, summaries, &row, &count));
+    if (st != SERVICE_OK) {
+        return st;
+    }
+    struct service_cell *cell = calloc((size_t)count + 1, sizeof *cell);
+    const bool ok = cell != NULL && unpack_cells(row, count, cell);
+    for (int i = 0; i < count; i++) {
+        free(row[i].packed);
+    }
+    free(row);
+    if (!ok) {
+        LOG(s->log, LOG_LEVEL_ERROR, "read_failed",
+            log_s("message", "a summary cannot be unpacked"));
+        service_cells_done(cell, cell != NULL ? count : 0);
+        free(cell);
+        return SERVICE_ERROR;
+    }
+    *out = cell;
+    *n = count;
+    return SERVICE_OK;
+}
+
 /* -- series ----------------------------------------------------------------------------- */
 
 static enum service_status service_get_series(void *ctx, const char *id, int n_channel,
@@ -324,6 +381,8 @@ struct service_impl *service_impl_create(struct store *st, struct writer *writer
                                .get_document = service_get_document,
                                .get_series = service_get_series,
                                .get_columns = service_get_columns,
+                               .get_study = service_get_study,
+                               .get_cells = service_get_cells,
                                .ready = service_ready};
     s->store = st;
     s->writer = writer;

@@ -29,17 +29,66 @@ enum store_status {
 
 enum { STORE_MESSAGE = 512 };
 
-/* A claimed job: the right to publish its result until the lease ends or the fence moves on. */
+/* A claimed job, or unit of a study: the right to publish its result until the lease ends or the
+ * fence moves on. Fences of all units of a study differ. */
 struct store_ticket {
     char id[JOB_ID_SIZE];
+    int unit; /* from 1; 0 = the whole job */
     int64_t fence;
 };
 
 struct store_claim {
     struct store_ticket ticket;
-    enum case_kind kind;
+    int kind; /* job_kind_name */
     int attempt;
-    char *case_json; /* owned by the caller, free() */
+    char *case_json; /* of the case or the study; owned by the caller, free() */
+    int next, last;  /* unit: places [next, last) of the order of cells are left to compute */
+    int lost;        /* unit: claims in a row that ended without an answer for `next` */
+};
+
+/* What a finished cell leaves behind; borrowed for the call. */
+struct store_cell {
+    int cell;
+    bool reused;
+    int64_t known; /* the answer that is stored already; 0 = the members below are stored */
+    enum study_cell_state state;
+    const char *content_hash, *verdict, *error_code, *error_detail;
+    double cpu_s;
+    const void *summary; /* packed (server/pack.h); none when failed */
+    size_t summary_size, summary_packed;
+};
+
+/* What becomes of a unit after some of its cells are stored. */
+enum store_unit_move {
+    STORE_UNIT_KEEP,    /* the lease goes on */
+    STORE_UNIT_YIELD,   /* the same, unless others wait: then it waits with them */
+    STORE_UNIT_RELEASE, /* it waits again */
+};
+
+struct store_batch {
+    int n;
+    const struct store_cell *cell;
+    int next; /* places of the unit before it are done; at its end the unit is */
+    enum store_unit_move move;
+};
+
+struct store_progress {
+    bool kept;            /* the lease still holds */
+    enum job_state state; /* of the study */
+};
+
+/* An answer to an equal case: either `known`, or the summary of a job. */
+struct store_known {
+    int64_t known;
+    char verdict[24];
+    char *summary; /* JSON text of a job's summary, owned by the caller; else NULL */
+};
+
+/* A stored cell as it is read: service_cell with its summary packed. */
+struct store_cell_row {
+    struct service_cell cell;
+    void *packed; /* owned; NULL when there is none or it was not asked for */
+    size_t packed_size, size;
 };
 
 struct store_document {
@@ -74,6 +123,7 @@ struct store_recovered {
     int queued;    /* to be run again */
     int failed;    /* attempts used up: failed with code "lost" */
     int cancelled; /* were being cancelled */
+    int units;     /* of studies, to be run again */
 };
 
 /* When the writer offers to tidy up its log. */
@@ -121,6 +171,9 @@ struct store_ops {
     /* The oldest waiting job, leased to `owner`. STORE_NONE: nothing waits. */
     enum store_status (*claim)(struct store_session *s, const char *owner, int64_t now,
                                int64_t lease_until, struct store_claim *out);
+    /* The first waiting unit of the open study that was served longest ago; as claim. */
+    enum store_status (*claim_unit)(struct store_session *s, const char *owner, int64_t now,
+                                    int64_t lease_until, struct store_claim *out);
     /* Extends a lease. STORE_CONFLICT: the ticket is no longer valid. */
     enum store_status (*heartbeat)(struct store_session *s, const struct store_ticket *t,
                                    int64_t lease_until);
@@ -133,6 +186,12 @@ struct store_ops {
     enum store_status (*hand_back)(struct store_session *s, const struct store_ticket *t);
     enum store_status (*stopped)(struct store_session *s, const struct store_ticket *t,
                                  int64_t now);
+    /* Stores finished cells of a unit; a cell that is stored already stays as it is. With the last
+     * unit its study ends. STORE_CONFLICT: as above. `fail` with the ticket of a unit fails the
+     * whole study. */
+    enum store_status (*publish_cells)(struct store_session *s, const struct store_ticket *t,
+                                       const struct store_batch *batch, int64_t now,
+                                       struct store_progress *out);
     /* Idempotent; *out is the job afterwards. STORE_NONE: no such job. */
     enum store_status (*cancel)(struct store_session *s, const char *id, int64_t now,
                                 struct job_record *out);
@@ -164,6 +223,15 @@ struct store_ops {
                                     struct shelf_entry **out, int *n);
     enum store_status (*shelf_get)(struct store_session *s, enum shelf_kind kind, const char *name,
                                    int version, struct shelf_entry *out);
+    /* STORE_NONE: no such study. */
+    enum store_status (*get_study)(struct store_session *s, const char *id,
+                                   struct service_study *out);
+    /* At most `limit` finished cells from number `from` on; free each `packed`, then the array. */
+    enum store_status (*get_cells)(struct store_session *s, const char *id, int from, int limit,
+                                   bool summaries, struct store_cell_row **out, int *n);
+    /* The answer to a case with this identity. STORE_NONE: it is not known. */
+    enum store_status (*find_known)(struct store_session *s, const char *content_hash,
+                                    struct store_known *out);
     /* Jobs without a final state. */
     enum store_status (*depth)(struct store_session *s, int64_t *out);
     /* The id accepted last, "" when there is none. */

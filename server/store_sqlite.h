@@ -82,6 +82,27 @@ char *sql_strdup(struct sql *q, int column);
 enum store_status sqlite_find_job(struct store_session *s, const char *id, int64_t *seq,
                                   enum job_state *state);
 
+/* Ends a job: its final state, and out of the queue with all that waits for it. */
+enum store_status sqlite_finish_job(struct store_session *s, int64_t seq, enum job_state from,
+                                    enum job_state to, int64_t now);
+/* The only statement that changes a state; `finished` 0 keeps a job open. */
+enum store_status sqlite_move_job(struct store_session *s, int64_t seq, enum job_state from,
+                                  enum job_state to, int64_t finished);
+
+/* The units of a study: made when it is accepted; extended; taken back, STORE_NONE when none is
+ * lost; the waiting ones of a study that is being cancelled taken away, which ends it unless some
+ * are leased. */
+enum store_status sqlite_insert_study(struct store_session *s, int64_t seq,
+                                      const struct study_plan *plan);
+enum store_status sqlite_heartbeat_unit(struct store_session *s, const struct store_ticket *t,
+                                        int64_t lease_until);
+enum store_status sqlite_recover_unit(struct store_session *s, const char *owner, int64_t now,
+                                      struct store_recovered *count);
+enum store_status sqlite_stop_study(struct store_session *s, int64_t seq, int64_t now);
+/* Sequence number and state of the study whose unit the ticket still holds. */
+enum store_status sqlite_redeem_unit(struct store_session *s, const struct store_ticket *t,
+                                     int64_t *seq, enum job_state *state);
+
 /* Stores the result of a job whose fence has been checked. */
 enum store_status sqlite_insert_result(struct store_session *s, int64_t seq, int64_t fence,
                                        const struct store_result *result, int64_t now);
@@ -102,6 +123,17 @@ enum store_status sqlite_claim(struct store_session *s, const char *owner, int64
                                int64_t lease_until, struct store_claim *out);
 enum store_status sqlite_heartbeat(struct store_session *s, const struct store_ticket *t,
                                    int64_t lease_until);
+enum store_status sqlite_claim_unit(struct store_session *s, const char *owner, int64_t now,
+                                    int64_t lease_until, struct store_claim *out);
+enum store_status sqlite_publish_cells(struct store_session *s, const struct store_ticket *t,
+                                       const struct store_batch *batch, int64_t now,
+                                       struct store_progress *out);
+enum store_status sqlite_get_study(struct store_session *s, const char *id,
+                                   struct service_study *out);
+enum store_status sqlite_get_cells(struct store_session *s, const char *id, int from, int limit,
+                                   bool summaries, struct store_cell_row **out, int *n);
+enum store_status sqlite_find_known(struct store_session *s, const char *content_hash,
+                                    struct store_known *out);
 enum store_status sqlite_publish(struct store_session *s, const struct store_ticket *t,
                                  const struct store_result *result, int64_t now);
 enum store_status sqlite_fail(struct store_session *s, const struct store_ticket *t,

@@ -24,9 +24,8 @@ enum store_status sqlite_find_job(struct store_session *s, const char *id, int64
     return sql_end(&q);
 }
 
-/* The only statement that changes a state; `finished` 0 keeps a job open. */
-static enum store_status move(struct store_session *s, int64_t seq, enum job_state from,
-                              enum job_state to, int64_t finished)
+enum store_status sqlite_move_job(struct store_session *s, int64_t seq, enum job_state from,
+                                  enum job_state to, int64_t finished)
 {
     if (!job_move_allowed(from, to)) {
         return STORE_CONFLICT;
@@ -38,11 +37,24 @@ static enum store_status move(struct store_session *s, int64_t seq, enum job_sta
     return sql_run(&q);
 }
 
-static enum store_status dequeue(struct store_session *s, int64_t seq)
+static enum store_status run_for(struct store_session *s, const char *text, int64_t seq)
 {
-    struct sql q = sql_begin(s, "DELETE FROM queue WHERE job = ?1");
+    struct sql q = sql_begin(s, text);
     sql_int(&q, seq);
     return sql_run(&q);
+}
+
+enum store_status sqlite_finish_job(struct store_session *s, int64_t seq, enum job_state from,
+                                    enum job_state to, int64_t now)
+{
+    static const char *const text[] = {"DELETE FROM queue WHERE job = ?1",
+                                       "DELETE FROM study_unit WHERE study = ?1",
+                                       "UPDATE study SET open = 0 WHERE job = ?1"};
+    enum store_status st = sqlite_move_job(s, seq, from, to, now);
+    for (size_t i = 0; st == STORE_OK && i < sizeof text / sizeof text[0]; i++) {
+        st = run_for(s, text[i], seq);
+    }
+    return st;
 }
 
 /* -- submit ----------------------------------------------------------------------------- */
@@ -90,7 +102,9 @@ enum store_status sqlite_submit(struct store_session *s, const struct service_su
         sql_text(&text, item->case_json);
         st = sql_run(&text);
     }
-    if (st == STORE_OK) {
+    if (st == STORE_OK && item->plan != NULL) {
+        st = sqlite_insert_study(s, seq, item->plan);
+    } else if (st == STORE_OK) {
         struct sql queue = sql_begin(s, "INSERT INTO queue (job, ready_us) VALUES (?1, ?2)");
         sql_int(&queue, seq);
         sql_int(&queue, now);
@@ -192,6 +206,9 @@ enum store_status sqlite_heartbeat(struct store_session *s, const struct store_t
 {
     int64_t seq = 0;
     enum job_state state;
+    if (t->unit > 0) {
+        return sqlite_heartbeat_unit(s, t, lease_until);
+    }
     enum store_status st = redeem(s, t, &seq, &state);
     if (st == STORE_OK) {
         struct sql q = sql_begin(s, "UPDATE queue SET lease_until = ?1 WHERE job = ?2");
@@ -209,10 +226,7 @@ enum store_status sqlite_publish(struct store_session *s, const struct store_tic
     enum job_state state;
     enum store_status st = redeem(s, t, &seq, &state);
     if (st == STORE_OK) {
-        st = move(s, seq, state, JOB_DONE, now);
-    }
-    if (st == STORE_OK) {
-        st = dequeue(s, seq);
+        st = sqlite_finish_job(s, seq, state, JOB_DONE, now);
     }
     if (st == STORE_OK) {
         st = sqlite_insert_result(s, seq, t->fence, result, now);
@@ -223,10 +237,7 @@ enum store_status sqlite_publish(struct store_session *s, const struct store_tic
 static enum store_status fail_job(struct store_session *s, int64_t seq, enum job_state state,
                                   const char *code, const char *detail, int64_t now)
 {
-    enum store_status st = move(s, seq, state, JOB_FAILED, now);
-    if (st == STORE_OK) {
-        st = dequeue(s, seq);
-    }
+    enum store_status st = sqlite_finish_job(s, seq, state, JOB_FAILED, now);
     if (st == STORE_OK) {
         struct sql q = sql_begin(s, "UPDATE job SET error_code = ?1, error_detail = ?2 "
                                     "WHERE seq = ?3");
@@ -243,14 +254,15 @@ enum store_status sqlite_fail(struct store_session *s, const struct store_ticket
 {
     int64_t seq = 0;
     enum job_state state;
-    const enum store_status st = redeem(s, t, &seq, &state);
+    const enum store_status st =
+        t->unit > 0 ? sqlite_redeem_unit(s, t, &seq, &state) : redeem(s, t, &seq, &state);
     return st == STORE_OK ? fail_job(s, seq, state, code, detail, now) : st;
 }
 
 static enum store_status wait_again(struct store_session *s, int64_t seq, enum job_state state,
                                     int lost)
 {
-    enum store_status st = move(s, seq, state, JOB_QUEUED, 0);
+    enum store_status st = sqlite_move_job(s, seq, state, JOB_QUEUED, 0);
     if (st == STORE_OK) {
         struct sql q = sql_begin(s, "UPDATE queue SET lease_until = 0, owner = '', "
                                     "lost = lost + ?1 WHERE job = ?2");
@@ -269,13 +281,6 @@ enum store_status sqlite_hand_back(struct store_session *s, const struct store_t
     return st == STORE_OK ? wait_again(s, seq, state, 0) : st;
 }
 
-static enum store_status cancel_job(struct store_session *s, int64_t seq, enum job_state state,
-                                    int64_t now)
-{
-    const enum store_status st = move(s, seq, state, JOB_CANCELLED, now);
-    return st == STORE_OK ? dequeue(s, seq) : st;
-}
-
 enum store_status sqlite_stopped(struct store_session *s, const struct store_ticket *t, int64_t now)
 {
     int64_t seq = 0;
@@ -284,7 +289,7 @@ enum store_status sqlite_stopped(struct store_session *s, const struct store_tic
     if (st == STORE_OK && state != JOB_CANCELLING) {
         return STORE_CONFLICT;
     }
-    return st == STORE_OK ? cancel_job(s, seq, state, now) : st;
+    return st == STORE_OK ? sqlite_finish_job(s, seq, state, JOB_CANCELLED, now) : st;
 }
 
 enum store_status sqlite_cancel(struct store_session *s, const char *id, int64_t now,
@@ -297,9 +302,12 @@ enum store_status sqlite_cancel(struct store_session *s, const char *id, int64_t
         return st;
     }
     if (state == JOB_QUEUED) {
-        st = cancel_job(s, seq, state, now);
+        st = sqlite_finish_job(s, seq, state, JOB_CANCELLED, now);
     } else if (state == JOB_RUNNING) {
-        st = move(s, seq, state, JOB_CANCELLING, 0);
+        st = sqlite_move_job(s, seq, state, JOB_CANCELLING, 0);
+        if (st == STORE_OK) {
+            st = sqlite_stop_study(s, seq, now);
+        }
     }
     return st == STORE_OK ? sqlite_get(s, id, out) : st;
 }
@@ -340,7 +348,7 @@ static enum store_status take_back(struct store_session *s, const struct lost_jo
 {
     if (job->state == JOB_CANCELLING) {
         count->cancelled++;
-        return cancel_job(s, job->seq, job->state, now);
+        return sqlite_finish_job(s, job->seq, job->state, JOB_CANCELLED, now);
     }
     if (job->lost + 1 < attempts_max) {
         count->queued++;
@@ -365,6 +373,9 @@ enum store_status sqlite_recover(struct store_session *s, const char *owner, int
         if (st != STORE_OK) {
             return st;
         }
+    }
+    while (st == STORE_NONE && (st = sqlite_recover_unit(s, owner, now, &count)) == STORE_OK) {
+        st = STORE_NONE;
     }
     if (st == STORE_NONE) {
         *out = count;

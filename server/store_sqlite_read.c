@@ -9,7 +9,8 @@
 
 #define JOB_COLUMNS                                                                                \
     "SELECT id, kind, state, name, content_hash, attempt, created_us, started_us, finished_us, "   \
-    "verdict, error_code, error_detail FROM job "
+    "verdict, error_code, error_detail, "                                                          \
+    "(SELECT (done + failed) / CAST(n_cell AS REAL) FROM study WHERE study.job = seq) FROM job "
 
 static void read_job(struct sql *q, struct job_record *out)
 {
@@ -30,7 +31,7 @@ static void read_job(struct sql *q, struct job_record *out)
     sql_copy(q, 9, job.verdict, sizeof job.verdict);
     sql_copy(q, 10, job.error_code, sizeof job.error_code);
     sql_copy(q, 11, job.error_detail, sizeof job.error_detail);
-    job.progress = job.state == JOB_DONE ? 1.0 : 0.0;
+    job.progress = job.state == JOB_DONE ? 1.0 : sqlite3_column_double(q->stmt, 12);
     *out = job;
 }
 
@@ -71,8 +72,7 @@ static void bind_list(struct sql *q, const struct service_filter *f, int64_t bef
                                SQLITE_STATIC);
     }
     if (rc == SQLITE_OK && f->kind >= 0) {
-        rc = sqlite3_bind_text(q->stmt, 3, job_kind_name((enum case_kind)f->kind), -1,
-                               SQLITE_STATIC);
+        rc = sqlite3_bind_text(q->stmt, 3, job_kind_name(f->kind), -1, SQLITE_STATIC);
     }
     if (rc == SQLITE_OK && f->name != NULL) {
         rc = sqlite3_bind_text(q->stmt, 4, f->name, -1, SQLITE_STATIC);
@@ -270,7 +270,8 @@ enum store_status sqlite_get_samples(struct store_session *s, const char *id, in
 
 enum store_status sqlite_depth(struct store_session *s, int64_t *out)
 {
-    struct sql q = sql_begin(s, "SELECT count(*) FROM queue");
+    struct sql q = sql_begin(s, "SELECT (SELECT count(*) FROM queue) + "
+                                "(SELECT count(*) FROM study WHERE open = 1)");
     if (sql_row(&q)) {
         *out = sqlite3_column_int64(q.stmt, 0);
     }

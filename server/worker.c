@@ -2,7 +2,9 @@
 
 #include "server/clock.h"
 #include "server/runner.h"
+#include "server/study_work.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +16,8 @@ struct worker {
     struct workers *all;
     int slot;
     pthread_t thread;
+    struct study_work *study;
+    double study_ahead_s; /* time given to studies less that given to jobs, within a second */
 };
 
 /* The request that workers_keep posts again and again. */
@@ -53,7 +57,15 @@ static enum store_status claim_apply(struct write_request *r, struct store_sessi
     const int64_t now = clock_wall_us();
     free(c->claim.case_json); /* of a try that was rolled back */
     c->claim.case_json = NULL;
-    return s->ops->claim(s, c->worker->all->env.owner, now, lease_end(now), &c->claim);
+    /* Who had less comes first. */
+    enum store_status (*const take[])(struct store_session *, const char *, int64_t, int64_t,
+                                      struct store_claim *) = {s->ops->claim, s->ops->claim_unit};
+    const int first = c->worker->study_ahead_s < 0.0;
+    enum store_status st = STORE_NONE;
+    for (int i = 0; st == STORE_NONE && i < 2; i++) {
+        st = take[i ^ first](s, c->worker->all->env.owner, now, lease_end(now), &c->claim);
+    }
+    return st;
 }
 
 static void claim_done(struct write_request *r, enum store_status st)
@@ -119,12 +131,10 @@ static void pause_s(int seconds)
     (void)nanosleep(&t, NULL);
 }
 
-/* A result is worth waiting for: a full disk is waited out, other failures are tried again a few
- * times. Gives up when the process stops; the lease then runs out and the job is run again. */
-static enum store_status end_job(const struct worker_env *env, struct end_request *e)
+enum store_status worker_store(const struct worker_env *env, struct write_request *r)
 {
     for (int i = 0;; i++) {
-        const enum store_status st = writer_call(env->writer, &e->base);
+        const enum store_status st = writer_call(env->writer, r);
         const bool again = (st == STORE_FULL && i < FULL_RETRIES_MAX) ||
                            (st == STORE_ERROR && i < ERROR_RETRIES_MAX);
         if (!again || dispatch_stopping(env->dispatch)) {
@@ -167,7 +177,7 @@ static void run_job(const struct worker *w, struct store_claim *claim)
     runner_run(env->library, claim->case_json, &control, outcome);
     struct end_request e = {
         .base = {.apply = end_apply}, .ticket = &claim->ticket, .outcome = outcome};
-    const enum store_status st = end_job(env, &e);
+    const enum store_status st = worker_store(env, &e.base);
     dispatch_leave(env->dispatch, w->slot);
     if (st == STORE_OK && e.state != JOB_QUEUED) {
         dispatch_depth_add(env->dispatch, -1);
@@ -177,17 +187,42 @@ static void run_job(const struct worker *w, struct store_claim *claim)
     free(outcome);
 }
 
+static void run_unit(const struct worker *w, const struct store_claim *claim)
+{
+    const struct worker_env *env = &w->all->env;
+    const bool ended = study_work_unit(w->study, env, w->slot, claim);
+    dispatch_leave(env->dispatch, w->slot);
+    if (ended) {
+        dispatch_depth_add(env->dispatch, -1);
+    }
+}
+
+static void run_claim(struct worker *w, struct store_claim *claim)
+{
+    static const double most_s = 1.0;
+    const int64_t start = clock_mono_us();
+    const bool unit = claim->ticket.unit > 0;
+    if (unit) {
+        run_unit(w, claim);
+    } else {
+        run_job(w, claim);
+    }
+    const double spent = 1e-6 * (double)(clock_mono_us() - start);
+    w->study_ahead_s += unit ? spent : -spent;
+    w->study_ahead_s = fmin(fmax(w->study_ahead_s, -most_s), most_s);
+    free(claim->case_json);
+}
+
 static void *worker_main(void *arg)
 {
-    const struct worker *w = arg;
+    struct worker *w = arg;
     struct dispatch *d = w->all->env.dispatch;
     while (!dispatch_stopping(d)) {
         struct store_claim claim = {.attempt = 0};
         const uint64_t rings = dispatch_rings(d);
         const enum store_status st = claim_job(w, &claim);
         if (st == STORE_OK) {
-            run_job(w, &claim);
-            free(claim.case_json);
+            run_claim(w, &claim);
         } else {
             dispatch_wait(d, rings, st == STORE_NONE ? IDLE_WAIT_S : RETRY_WAIT_S);
         }
@@ -214,11 +249,11 @@ static enum store_status keep_apply(struct write_request *r, struct store_sessio
 
 static void report_recovered(const struct worker_env *env, const struct store_recovered *r)
 {
-    if (r->queued + r->failed + r->cancelled == 0) {
+    if (r->queued + r->failed + r->cancelled + r->units == 0) {
         return;
     }
     LOG(env->log, LOG_LEVEL_WARN, "jobs_recovered", log_i("queued", r->queued),
-        log_i("failed", r->failed), log_i("cancelled", r->cancelled));
+        log_i("failed", r->failed), log_i("cancelled", r->cancelled), log_i("units", r->units));
     dispatch_depth_add(env->dispatch, -(int64_t)(r->failed + r->cancelled));
     dispatch_ring(env->dispatch);
 }
@@ -287,8 +322,9 @@ enum store_status workers_start(const struct worker_env *env, struct workers **o
     w->keep.lost = calloc(n + 1, sizeof *w->keep.lost);
     bool ok = w->keep.ticket != NULL && w->keep.lost != NULL;
     for (int i = 0; ok && i < (int)n; i++) {
-        w->thread[i] = (struct worker){.all = w, .slot = i};
-        ok = pthread_create(&w->thread[i].thread, NULL, worker_main, &w->thread[i]) == 0;
+        w->thread[i] = (struct worker){.all = w, .slot = i, .study = study_work_create()};
+        ok = w->thread[i].study != NULL &&
+             pthread_create(&w->thread[i].thread, NULL, worker_main, &w->thread[i]) == 0;
         w->n_thread += ok;
     }
     if (!ok) {
@@ -311,6 +347,9 @@ void workers_stop(struct workers *w)
     while (atomic_load(&w->keep.queued)) { /* still with the writer, which outlives the workers */
         const struct timespec t = {.tv_nsec = 1000000};
         (void)nanosleep(&t, NULL);
+    }
+    for (int i = 0; i < dispatch_slots(w->env.dispatch); i++) {
+        study_work_destroy(w->thread[i].study);
     }
     free(w->keep.ticket);
     free(w->keep.lost);

@@ -1,5 +1,6 @@
 /* server/worker.h
- * The worker threads: claim a job, run it, publish its end, again. One job per thread at a time.
+ * The worker threads: claim a job or a unit of a study, run it, publish its end, again. One claim
+ * per thread at a time. Jobs and studies that wait at the same time get equal shares of the time.
  *
  * The writer's thread does all storing; a worker waits for it. Every end of a job is bound to the
  * ticket of its claim, so that a worker that lost its lease changes nothing. */
@@ -15,6 +16,7 @@ enum { LEASE_S = 30, HEARTBEAT_S = 10 };
 
 /* What all workers share; borrowed. */
 struct worker_env {
+    struct store *store; /* readers of it */
     struct writer *writer;
     struct dispatch *dispatch;
     const struct library *library;
@@ -24,6 +26,11 @@ struct worker_env {
 };
 
 struct workers;
+
+/* Has a request that ends a claim, or stores a part of it, done: a result is worth waiting for, so
+ * a full disk is waited out and other failures are tried again a few times. Gives up when the
+ * process stops; the lease then runs out and the work is done again. */
+enum store_status worker_store(const struct worker_env *env, struct write_request *r);
 
 /* Starts one thread for each slot of the dispatch. */
 enum store_status workers_start(const struct worker_env *env, struct workers **out);

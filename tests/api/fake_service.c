@@ -1,4 +1,5 @@
 #include "tests/api/fake_service.h"
+#include "tests/api/fake_study.h"
 
 #include "api/text.h"
 
@@ -34,8 +35,7 @@ static struct fake_job *find(struct fake *f, const char *id)
     return NULL;
 }
 
-struct fake_job *fake_add(struct fake *f, enum case_kind kind, enum job_state state,
-                          const char *name)
+struct fake_job *fake_add(struct fake *f, int kind, enum job_state state, const char *name)
 {
     assert(f->n_job < FAKE_JOBS_MAX);
     struct fake_job *job = &f->job[f->n_job];
@@ -328,6 +328,16 @@ static enum service_status fake_entry(void *ctx, enum shelf_kind kind, const cha
     return SERVICE_NOT_FOUND;
 }
 
+static enum service_status fake_get_study(void *ctx, const char *id, struct service_study *out)
+{
+    const struct fake_job *job = find(ctx, id);
+    if (job == NULL || job->record.kind != JOB_STUDY) {
+        return SERVICE_NOT_FOUND;
+    }
+    *out = fake_study_progress();
+    return SERVICE_OK;
+}
+
 static bool fake_ready(void *ctx, const char **why)
 {
     const struct fake *f = ctx;
@@ -356,6 +366,8 @@ struct fake *fake_create(void)
                                   .get_document = fake_get_document,
                                   .get_series = fake_get_series,
                                   .get_columns = fake_get_columns,
+                                  .get_study = fake_get_study,
+                                  .get_cells = fake_get_cells,
                                   .ready = fake_ready};
     if (library_create_builtin(&f->library, &fail) != ST_OK) {
         (void)fprintf(stderr, "%s\n", fail.detail);

@@ -38,9 +38,11 @@ void fake_destroy(struct fake *f);
 /* Forgets every job and every entry. */
 void fake_reset(struct fake *f);
 
+/* Of the cells of every study the first is done, with verdict and c_l, and the second has failed.
+ */
+
 /* Adds a job as a worker would have left it. Returns it. */
-struct fake_job *fake_add(struct fake *f, enum case_kind kind, enum job_state state,
-                          const char *name);
+struct fake_job *fake_add(struct fake *f, int kind, enum job_state state, const char *name);
 
 /* One request; exactly one answer must come. The target is a path with its query. Headers may be
  * NULL. Returns the answer's status. */

@@ -6,6 +6,7 @@
 #include "api/entry_fields.h"
 #include "api/json.h"
 #include "api/route.h"
+#include "api/study_fields.h"
 #include "tests/api/fake_service.h"
 #include "tests/api/schema_check.h"
 
@@ -276,6 +277,7 @@ static void test_tables(void **state)
 {
     const struct fixture *f = *state;
     check_table(f, schema_named(f, "Case"), case_fields, (1u << CASE_KIND_COUNT) - 1u);
+    check_table(f, schema_named(f, "Study"), study_fields, STUDY_IN_GRID);
     check_table(f, schema_named(f, "Material"), material_fields, 0);
     check_table(f, schema_named(f, "Polar"), polar_fields, 0);
     check_table(f, schema_named(f, "Network"), network_fields, 0);
@@ -391,8 +393,12 @@ static void test_words(void **state)
     const struct fixture *f = *state;
     const char *problems[PROBLEM_COUNT + 1] = {NULL};
     const char *states[JOB_STATE_COUNT + 1] = {NULL};
+    const char *kinds[JOB_KIND_COUNT + 1] = {NULL};
     for (int i = 0; i < PROBLEM_COUNT; i++) {
         problems[i] = problem_code((enum problem)i);
+    }
+    for (int i = 0; i < JOB_KIND_COUNT; i++) {
+        kinds[i] = job_kind_name(i);
     }
     for (int i = 0; i < JOB_STATE_COUNT; i++) {
         states[i] = job_state_name((enum job_state)i);
@@ -400,8 +406,7 @@ static void test_words(void **state)
     check_names(schema_node(f->doc, "#/components/schemas/Problem/properties/code"), problems,
                 "code");
     check_names(schema_node(f->doc, "#/components/schemas/Job/properties/state"), states, "state");
-    check_names(schema_node(f->doc, "#/components/schemas/Job/properties/kind"), case_kind_names,
-                "kind");
+    check_names(schema_node(f->doc, "#/components/schemas/Job/properties/kind"), kinds, "kind");
     check_names(schema_node(f->doc, "#/components/schemas/Output/properties/channels/items"),
                 channel_names, "channels");
 }

@@ -106,6 +106,11 @@ static const char good_case[] =
     "{\"schema_version\":1,\"kind\":\"section\",\"beam\":{\"section\":{\"type\":\"strip\","
     "\"chord_m\":0.1,\"layup\":[{\"material\":\"foam\",\"thickness_m\":0.001}]}}}";
 
+#define STUDY                                                                                      \
+    "{\"schema_version\":1,\"kind\":\"study\",\"type\":\"grid\",\"case\":%s,\"vary\":["            \
+    "{\"pointer\":\"/beam/section/chord_m\",\"values\":[0.1,0.2]},"                                \
+    "{\"pointer\":\"/beam/section/layup/0/angle_deg\",\"from\":-90,\"to\":90,\"count\":3}]}"
+
 /* Result documents are the fake's own words here: test_result.c checks the real ones. */
 static void test_replies(void **state)
 {
@@ -220,7 +225,9 @@ static void test_submit_replies(void **state)
 {
     struct fixture *f = *state;
     char batch[600];
+    char study[800];
     (void)snprintf(batch, sizeof batch, "{\"jobs\":[%s]}", good_case);
+    (void)snprintf(study, sizeof study, STUDY, good_case);
     const struct {
         const char *type, *body;
         enum service_status refuse;
@@ -242,8 +249,73 @@ static void test_submit_replies(void **state)
                          posts[i].status);
         check_reply(f, "/v1/jobs", "POST");
     }
+    for (size_t i = 0; i < sizeof posts / sizeof posts[0]; i++) {
+        const char *body = posts[i].body == good_case ? study : posts[i].body;
+        f->fake->refuse = posts[i].refuse;
+        if (body != batch) {
+            assert_int_equal(fake_request(f->fake, "POST", "/v1/studies", posts[i].type, body),
+                             posts[i].status);
+            check_reply(f, "/v1/studies", "POST");
+        }
+    }
+    f->fake->refuse = SERVICE_OK;
+    assert_int_equal(fake_post(f->fake, study), 200); /* the other door */
+    check_reply(f, "/v1/jobs", "POST");
+    assert_int_equal(fake_request(f->fake, "POST", "/v1/studies", "application/json", good_case),
+                     422);
     assert_int_equal(fake_get(f->fake, "/v1/jobs/" ID "/case"), 200);
     check_reply(f, "/v1/jobs/{id}/case", "GET");
+}
+
+/* A study of six cells, of which the fake has two. */
+static void test_study_replies(void **state)
+{
+    static const struct {
+        const char *path, *tail;
+        int status;
+        const char *says;
+    } gets[] = {
+        {"/v1/studies/{id}", "", 200, "\"pending\":4"},
+        {"/v1/studies/{id}/case", "/case", 200, "\"vary\""},
+        {"/v1/studies/{id}/cells", "/cells", 200, "\"next\":null"},
+        {"/v1/studies/{id}/cells", "/cells?limit=1", 200, "\"next\":1"},
+        {"/v1/studies/{id}/cells", "/cells?from=1&limit=1", 200, "singular"},
+        {"/v1/studies/{id}/cells", "/cells?limit=0", 400, "?limit"},
+        {"/v1/studies/{id}/cells/{cell}", "/cells/0", 200, "\"cl\":0.5"},
+        {"/v1/studies/{id}/cells/{cell}", "/cells/1", 200, "\"summary\":null"},
+        {"/v1/studies/{id}/cells/{cell}", "/cells/5", 200, "\"state\":\"pending\""},
+        {"/v1/studies/{id}/cells/{cell}", "/cells/6", 404, "no_cell"},
+        {"/v1/studies/{id}/cells/{cell}", "/cells/x", 404, "no_cell"},
+        {"/v1/studies/{id}/map", "/map", 200,
+         "\"values\":[[\"stable\",null,null],[null,null,null]]"},
+        {"/v1/studies/{id}/map", "/map?value=means.cl", 200,
+         "\"status\":[[\"done\",\"failed\",\"pending\"]"},
+        {"/v1/studies/{id}/map", "/map?value=cd", 400, "unknown_value"},
+        {"/v1/studies/{id}/map", "/map?value=means", 400, "more than one value"},
+    };
+    struct fixture *f = *state;
+    char study[800], target[160];
+    (void)snprintf(study, sizeof study, STUDY, good_case);
+    assert_int_equal(fake_post(f->fake, study), 202);
+    for (size_t i = 0; i < sizeof gets / sizeof gets[0]; i++) {
+        (void)snprintf(target, sizeof target, "/v1/studies/" ID "%s", gets[i].tail);
+        assert_int_equal(fake_get(f->fake, target), gets[i].status);
+        check_reply(f, gets[i].path, "GET");
+        if (!fake_says(f->fake, gets[i].says)) {
+            fail_msg("%s: %s", target, f->fake->answer.body);
+        }
+    }
+    assert_int_equal(fake_get(f->fake, "/v1/jobs/" ID), 200);
+    check_reply(f, "/v1/jobs/{id}", "GET");
+    assert_int_equal(fake_get(f->fake, "/v1/jobs/" ID "/summary"), 404);
+    (void)fake_add(f->fake, CASE_SIMULATION, JOB_DONE, "no study");
+    assert_int_equal(fake_get(f->fake, "/v1/studies"), 200);
+    check_reply(f, "/v1/studies", "GET");
+    assert_false(fake_says(f->fake, "no study"));
+    assert_int_equal(fake_get(f->fake, "/v1/studies/00000000-0000-7000-8000-000000000001"), 404);
+    check_reply(f, "/v1/studies/{id}", "GET");
+    assert_int_equal(fake_request(f->fake, "DELETE", "/v1/studies/" ID, NULL, NULL), 200);
+    check_reply(f, "/v1/studies/{id}", "DELETE");
 }
 
 /* The checker itself refuses what does not fit: otherwise every test above could not fail. */
@@ -290,10 +362,8 @@ int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
     const struct CMUnitTest tests[] = {
-        TEST(test_replies),
-        TEST(test_submit_replies),
-        TEST(test_library_replies),
-        TEST(test_checker_refuses),
+        TEST(test_replies),       TEST(test_submit_replies),  TEST(test_library_replies),
+        TEST(test_study_replies), TEST(test_checker_refuses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,8 +46,11 @@ static void test_values(void **state)
     assert_string_equal(text, "stable");
     assert_int_equal(study_value(s, "nothing", &number, &text), STUDY_VALUE_MISSING);
     assert_int_equal(study_value(s, "modes.2.frequency_hz", &number, &text), STUDY_VALUE_MISSING);
-    assert_int_equal(study_value(s, "modes.x", &number, &text), STUDY_VALUE_MISSING);
-    assert_int_equal(study_value(s, "modes.-1", &number, &text), STUDY_VALUE_MISSING);
+    assert_int_equal(study_value(s, "nothing.more", &number, &text), STUDY_VALUE_MISSING);
+    assert_int_equal(study_value(s, "damping.tip_plunge.torsion.ratio", &number, &text),
+                     STUDY_VALUE_MISSING);
+    assert_int_equal(study_value(s, "modes.x", &number, &text), STUDY_VALUE_ABSENT);
+    assert_int_equal(study_value(s, "modes.-1", &number, &text), STUDY_VALUE_ABSENT);
     assert_int_equal(study_value(s, "modes", &number, &text), STUDY_VALUE_NONE);
     assert_int_equal(study_value(s, "means", &number, &text), STUDY_VALUE_NONE);
     cJSON_Delete(s);
@@ -85,8 +88,8 @@ static void test_numbers(void **state)
     (void)state;
     struct study_map m = make("cl");
     cJSON *s = cJSON_Parse(summary_text);
-    assert_true(study_map_set(&m, 4, STUDY_CELL_DONE, s));
-    assert_true(study_map_set(&m, 2, STUDY_CELL_FAILED, NULL));
+    assert_int_equal(study_map_set(&m, 4, STUDY_CELL_DONE, s), STUDY_VALUE_NUMBER);
+    assert_int_equal(study_map_set(&m, 2, STUDY_CELL_FAILED, NULL), STUDY_VALUE_MISSING);
     expect_members(
         &m,
         "{\"value\":\"cl\",\"axes\":[{\"pointer\":\"/aerodynamics/polar\",\"dimension\":0,"
@@ -94,8 +97,14 @@ static void test_numbers(void **state)
         "\"values\":[2,3,4]}],\"shape\":[2,3],\"values\":[[null,null,null],[null,0.4,null]],"
         "\"status\":[[\"pending\",\"pending\",\"failed\"],[\"pending\",\"done\",\"pending\"]]}");
     m.value_name = "modes";
-    assert_false(study_map_set(&m, 0, STUDY_CELL_DONE, s));
+    assert_int_equal(study_map_set(&m, 0, STUDY_CELL_DONE, s), STUDY_VALUE_NONE);
     cJSON_Delete(s);
+    struct json_out out = {0};
+    json_object_begin(&out);
+    study_map_point(&out, &m, 4);
+    json_object_end(&out);
+    assert_string_equal(out.text, "{\"/aerodynamics/polar\":\"b\",\"/flow/speed_m_s\":3}");
+    json_out_done(&out);
     study_map_done(&m);
 }
 
@@ -107,7 +116,7 @@ static void test_classes(void **state)
     for (int i = 0; i < 3; i++) {
         cJSON *s = cJSON_CreateObject();
         (void)cJSON_AddStringToObject(s, "verdict", verdicts[i]);
-        assert_true(study_map_set(&m, i, STUDY_CELL_DONE, s));
+        assert_int_equal(study_map_set(&m, i, STUDY_CELL_DONE, s), STUDY_VALUE_TEXT);
         cJSON_Delete(s);
     }
     assert_int_equal(m.n_class, 2);

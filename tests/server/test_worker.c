@@ -33,7 +33,8 @@ static struct rig start(struct fixture *f, int n)
     r.dispatch = dispatch_create(n, 0);
     assert_non_null(r.dispatch);
     assert_int_equal(writer_create(f->store, &quiet, &r.writer), STORE_OK);
-    r.env = (struct worker_env){.writer = r.writer,
+    r.env = (struct worker_env){.store = f->store,
+                                .writer = r.writer,
                                 .dispatch = r.dispatch,
                                 .library = r.library,
                                 .log = &quiet,
