@@ -158,10 +158,15 @@ class FreeSections(unittest.TestCase):
     def test_motion_of_the_solver_is_turned_nose_up(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "state.dat"
-            path.write_text("# head\n0.4 (0 0.1 0.05) (0 0.1 0.05) (0 0 -3) (0 0.2 0) (0 0 -90)\n")
-            angle, rate, w, w_rate = run_free.motion_lines(path)[20]
+            line = "%g (0 0.1 0.05) (0 0.1 0.05) (0 0 %g) (0 0.2 0) (0 0 -90)\n"
+            path.write_text("# head\n" + line % (0.4, -3.0) + line % (0.41, -9.0))  # every step is written
+            motion = run_free.motion_lines(path)
+            angle, rate, w, w_rate = motion[20]
             self.assertEqual((angle, w, w_rate), (3.0, 0.1, 0.2))
             self.assertAlmostEqual(rate, 0.5 * math.pi, places=12)
+            samples = run_free.samples(row_of(), [(t, 0.5, 0.1, 0.05) for t in (0.39, 0.4, 0.41)], motion)
+            self.assertEqual([values[0] for values in samples], [0.4])
+            self.assertAlmostEqual(samples[0][7], 0.05 - 0.1 * 0.1, places=12)
 
     def test_committed_records_obey_their_equations_of_motion(self):
         """m w'' + c w' + k w = c_l/2 and the same of the pitch, with differences of the recorded rates."""

@@ -30,6 +30,12 @@ INTERVAL = 0.2  # [c/V] between two samples: a fiftieth of a period
 RESULT_COLUMNS = ("status", "samples", "core_s", "courant_max", "solver", "note")
 
 
+def sample_number(t):
+    """Of a time at which the prescribed records have a line, else None: the solver writes every step."""
+    index = round(t / case.FORCE_INTERVAL)
+    return index if abs(t - index * case.FORCE_INTERVAL) < 1e-6 else None
+
+
 def motion_lines(path):
     """t -> (angle [deg] nose-up off the mean, its rate [rad], plunge, its rate) of the solver's log."""
     result = {}
@@ -37,15 +43,15 @@ def motion_lines(path):
         if not line.startswith("#"):
             v = [float(word) for word in re.sub("[()]", " ", line).split()]
             # Time, centre of rotation, centre of mass, rotation and velocity, rotation rate: [deg].
-            result[round(v[0] / case.FORCE_INTERVAL)] = (-v[9], -math.radians(v[15]), v[5], v[11])
+            result[sample_number(v[0])] = (-v[9], -math.radians(v[15]), v[5], v[11])
     return result
 
 
 def samples(row, coefficients, motion):
     stride, result = round(INTERVAL / case.FORCE_INTERVAL), []
     for t, cl, cd, cm in coefficients:
-        index = round(t / case.FORCE_INTERVAL)
-        if index % stride or index not in motion:
+        index = sample_number(t)
+        if index is None or index % stride or index not in motion:
             continue
         angle, rate, w, w_rate = motion[index]
         if not all(abs(value) < record.COEFFICIENT_MAX for value in (cl, cd, cm)):
