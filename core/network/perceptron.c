@@ -81,36 +81,90 @@ double perceptron_error(const struct perceptron *s, const double *p, int n, cons
     return sum / ((double)n * s->n_out);
 }
 
-/* Derivatives of output o, the hidden layer known, into row (count). */
-static void row_of(const struct perceptron *s, const double *p, const double *x,
-                   const double *hidden, int o, double *row)
+int perceptron_basis_rows(const struct perceptron *s)
 {
-    const struct layout at = layout_of(s);
-    const double *w2 = p + at.w2 + num_at(0, o, s->n_hidden);
-    for (int k = 0; k < s->n_hidden; k++) {
-        const double back = w2[k] * (1.0 - num_sq(hidden[k]));
-        for (int i = 0; i < s->n_in; i++) {
-            row[num_at(i, k, s->n_in)] = back * x[i];
-        }
-        row[at.b1 + k] = back;
-    }
-    memset(row + at.w2, 0, (size_t)(at.count - at.w2) * sizeof *row);
-    memcpy(row + at.w2 + num_at(0, o, s->n_hidden), hidden, (size_t)s->n_hidden * sizeof *row);
-    row[at.b2 + o] = 1.0;
+    return (s->n_in + 2) * s->n_hidden + 1;
 }
 
-void perceptron_jacobian(const struct perceptron *s, const double *p, int n, const double *x,
-                         const double *t, double *e, double *j)
+void perceptron_basis(const struct perceptron *s, const double *p, int n, const double *x,
+                      const double *t, double *e, double *z)
 {
-    const int count = perceptron_count(s);
-    double hidden[LIMIT_NET_HIDDEN], y[LIMIT_NET_OUTPUTS];
+    const int rows = perceptron_basis_rows(s);
+    double y[LIMIT_NET_OUTPUTS];
     for (int k = 0; k < n; k++) {
         const double *in = x + num_at(0, k, s->n_in);
+        double *row = z + num_at(0, k, rows);
+        double *d = row + num_at(0, s->n_hidden, s->n_in), *hidden = d + s->n_hidden;
         perceptron_eval(s, p, in, hidden, y);
+        for (int i = 0; i < s->n_hidden; i++) {
+            d[i] = 1.0 - num_sq(hidden[i]);
+            for (int j = 0; j < s->n_in; j++) {
+                row[num_at(j, i, s->n_in)] = d[i] * in[j];
+            }
+        }
+        hidden[s->n_hidden] = 1.0;
         for (int o = 0; o < s->n_out; o++) {
-            const ptrdiff_t column = num_at(o, k, s->n_out);
-            e[column] = y[o] - t[column];
-            row_of(s, p, in, hidden, o, j + column * count);
+            e[num_at(k, o, n)] = y[o] - t[num_at(o, k, s->n_out)];
+        }
+    }
+}
+
+/* Neuron of row r of the basis, of those that belong to the weights before the hidden layer. */
+static int neuron_of(const struct perceptron *s, int r)
+{
+    const int weights = s->n_in * s->n_hidden;
+    return r < weights ? r / s->n_in : r - weights;
+}
+
+/* Place in p of what output o multiplies with row l of hidden and one. */
+static int output_place(const struct perceptron *s, const struct layout *at, int o, int l)
+{
+    return l < s->n_hidden ? at->w2 + o * s->n_hidden + l : at->b2 + o;
+}
+
+/* Column c of the block of the hidden layer: w2 of both neurons, summed over the outputs. */
+static void hidden_block(const struct perceptron *s, const double *w2, const double *zz, int c,
+                         double *gram)
+{
+    const int rows = perceptron_basis_rows(s), count = perceptron_count(s);
+    const int before = (s->n_in + 1) * s->n_hidden, k = neuron_of(s, c);
+    for (int r = c; r < before; r++) {
+        const int l = neuron_of(s, r);
+        double both = 0.0;
+        for (int o = 0; o < s->n_out; o++) {
+            both += w2[num_at(k, o, s->n_hidden)] * w2[num_at(l, o, s->n_hidden)];
+        }
+        gram[num_at(r, c, count)] = both * zz[num_at(r, c, rows)];
+    }
+}
+
+void perceptron_normal(const struct perceptron *s, const double *p, const double *zz,
+                       const double *ze, double *gram, double *slope)
+{
+    const struct layout at = layout_of(s);
+    const int rows = perceptron_basis_rows(s), before = (s->n_in + 1) * s->n_hidden;
+    const double *w2 = p + at.w2;
+    memset(gram, 0, (size_t)at.count * (size_t)at.count * sizeof *gram);
+    memset(slope, 0, (size_t)at.count * sizeof *slope);
+    for (int c = 0; c < before; c++) {
+        hidden_block(s, w2, zz, c, gram);
+        for (int o = 0; o < s->n_out; o++) {
+            const double w = w2[num_at(neuron_of(s, c), o, s->n_hidden)];
+            slope[c] += w * ze[num_at(c, o, rows)];
+            for (int l = 0; l <= s->n_hidden; l++) {
+                gram[num_at(output_place(s, &at, o, l), c, at.count)] =
+                    w * zz[num_at(before + l, c, rows)];
+            }
+        }
+    }
+    for (int o = 0; o < s->n_out; o++) {
+        for (int m = 0; m <= s->n_hidden; m++) {
+            const int c = output_place(s, &at, o, m);
+            slope[c] = ze[num_at(before + m, o, rows)];
+            for (int l = m; l <= s->n_hidden; l++) {
+                gram[num_at(output_place(s, &at, o, l), c, at.count)] =
+                    zz[num_at(before + l, before + m, rows)];
+            }
         }
     }
 }

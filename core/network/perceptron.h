@@ -1,6 +1,6 @@
 /* core/network/perceptron.h
  * The network while it is trained: one hidden layer, tanh, linear output, all parameters in one
- * vector p, in scaled inputs and outputs. Evaluation, Jacobian and gradient.
+ * vector p, in scaled inputs and outputs. Evaluation, normal equations and gradient.
  *
  * Order of p: w1 (n_in x n_hidden), b1 (n_hidden), w2 (n_hidden x n_out), b2 (n_out), the arrays of
  * struct network_def one after the other. Samples: x (n_in x n), t (n_out x n). Free of state;
@@ -31,10 +31,19 @@ void perceptron_eval(const struct perceptron *s, const double *p, const double *
 double perceptron_error(const struct perceptron *s, const double *p, int n, const double *x,
                         const double *t);
 
-/* Residuals e = y - t (n_out x n) and their derivatives by p: column o + n_out k of j
- * (count x n_out n) belongs to output o of sample k. */
-void perceptron_jacobian(const struct perceptron *s, const double *p, int n, const double *x,
-                         const double *t, double *e, double *j);
+/* Length of what the derivatives of one sample are made of: with d = 1 - hidden^2, the products d x
+ * of each neuron and input, then d, hidden, and one. The derivatives of output o by the hidden
+ * layer are the first two times w2, those by its own w2 and b2 the last two: all outputs share
+ * them. */
+int perceptron_basis_rows(const struct perceptron *s);
+/* The basis of n samples, z (basis rows x n), and their residuals y - t, output by output: e
+ * (n x n_out). */
+void perceptron_basis(const struct perceptron *s, const double *p, int n, const double *x,
+                      const double *t, double *e, double *z);
+/* From zz = z z' (basis rows x basis rows, lower triangle) and ze = z e (basis rows x n_out),
+ * summed over all samples: J'J (count x count, lower triangle) and J'e (count). */
+void perceptron_normal(const struct perceptron *s, const double *p, const double *zz,
+                       const double *ze, double *gram, double *slope);
 
 /* g (count) += derivative of half the sum of squares of the residuals of one sample. */
 void perceptron_gradient_add(const struct perceptron *s, const double *p, const double *x,

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BLOCK = 128 }; /* samples of one block of the Jacobian: it stays in the cache */
+enum { BLOCK = 256 }; /* samples of one block: it stays in the cache */
 
 /* Damping, of normal equations whose diagonal is about one. */
 static const double damping_start = 1e-2, damping_least = 1e-12, damping_most = 1e10;
@@ -23,16 +23,21 @@ struct lm {
     double *slope; /* half the gradient of the objective (count) */
     double *step;  /* (count) */
     double *trial; /* (count) */
-    double *j;     /* (count x n_out BLOCK) */
-    double *e;     /* (n_out x BLOCK) */
+    double *z;     /* basis of one block (rows x BLOCK) */
+    double *e;     /* (BLOCK x n_out) */
+    double *zz;    /* z z' over all samples (rows x rows), lower */
+    double *ze;    /* z e (rows x n_out) */
 };
 
 static enum status lm_init(const struct train_problem *problem, const struct train_def *def,
                            struct lm *s)
 {
-    const int count = perceptron_count(&problem->shape), rows = problem->shape.n_out * BLOCK;
+    const int count = perceptron_count(&problem->shape);
     const size_t n = (size_t)count, square = n * n;
-    double *block = malloc((2 * square + 3 * n + (n + 1) * (size_t)rows) * sizeof *block);
+    const size_t rows = (size_t)perceptron_basis_rows(&problem->shape);
+    const size_t n_out = (size_t)problem->shape.n_out;
+    double *block = malloc((2 * square + 3 * n + (rows + n_out) * BLOCK + rows * (rows + n_out)) *
+                           sizeof *block);
     if (block == NULL) {
         return ST_NO_MEMORY;
     }
@@ -44,8 +49,10 @@ static enum status lm_init(const struct train_problem *problem, const struct tra
                      .slope = block + 2 * square,
                      .step = block + 2 * square + n,
                      .trial = block + 2 * square + 2 * n,
-                     .j = block + 2 * square + 3 * n,
-                     .e = block + 2 * square + 3 * n + n * (size_t)rows};
+                     .z = block + 2 * square + 3 * n};
+    s->e = s->z + rows * BLOCK;
+    s->zz = s->e + n_out * BLOCK;
+    s->ze = s->zz + rows * rows;
     return ST_OK;
 }
 
@@ -74,17 +81,19 @@ static struct objective objective_at(const struct lm *s, const double *p)
 static void normal_equations(struct lm *s, const double *p)
 {
     const struct train_problem *t = s->problem;
-    const int n_out = t->shape.n_out;
+    const int n_out = t->shape.n_out, rows = perceptron_basis_rows(&t->shape);
     const double factor = 1.0 / ((double)t->n_trained * n_out);
-    memset(s->gram, 0, (size_t)s->count * (size_t)s->count * sizeof *s->gram);
-    memset(s->slope, 0, (size_t)s->count * sizeof *s->slope);
+    memset(s->zz, 0, (size_t)rows * (size_t)(rows + n_out) * sizeof *s->zz); /* and ze */
     for (int first = 0; first < t->n_trained; first += BLOCK) {
         const int n = t->n_trained - first < BLOCK ? t->n_trained - first : BLOCK;
-        perceptron_jacobian(&t->shape, p, n, t->trained_x + num_at(0, first, t->shape.n_in),
-                            t->trained_t + num_at(0, first, n_out), s->e, s->j);
-        la_gram_add(s->count, n * n_out, s->j, s->gram);
-        la_multiply_add(s->count, n * n_out, s->j, s->e, s->slope);
+        perceptron_basis(&t->shape, p, n, t->trained_x + num_at(0, first, t->shape.n_in),
+                         t->trained_t + num_at(0, first, n_out), s->e, s->z);
+        la_gram_add(rows, n, s->z, s->zz);
+        for (int o = 0; o < n_out; o++) {
+            la_multiply_add(rows, n, s->z, s->e + num_at(0, o, n), s->ze + num_at(0, o, rows));
+        }
     }
+    perceptron_normal(&t->shape, p, s->zz, s->ze, s->gram, s->slope);
     for (ptrdiff_t i = 0; i < num_at(0, s->count, s->count); i++) {
         s->gram[i] *= factor;
     }

@@ -26,56 +26,105 @@ static void random_vector(int n, uint64_t seed, double *x)
     }
 }
 
-static void the_jacobian_is_that_of_differences(void **state)
+enum { FEW = 5, ROWS = (IN + 2) * HIDDEN + 1 };
+
+/* J'J and J'e of a few samples, by way of the basis. */
+static void normal(const double *p, const double *x, const double *t, double *gram, double *slope)
 {
-    (void)state;
-    enum { N = 5 };
-    double p[COUNT], x[IN * N], t[OUT * N], e[OUT * N], j[COUNT * OUT * N], other[OUT * N];
-    double unused[COUNT * OUT * N];
-    assert_int_equal(perceptron_count(&shape), COUNT);
-    perceptron_start(&shape, 4, p);
-    random_vector(IN * N, 1, x);
-    random_vector(OUT * N, 2, t);
-    perceptron_jacobian(&shape, p, N, x, t, e, j);
-    for (int i = 0; i < COUNT; i++) {
-        const double h = 1e-6, keep = p[i];
-        double up[OUT * N];
-        p[i] = keep + h;
-        perceptron_jacobian(&shape, p, N, x, t, up, unused);
-        p[i] = keep - h;
-        perceptron_jacobian(&shape, p, N, x, t, other, unused);
-        p[i] = keep;
-        for (int r = 0; r < OUT * N; r++) {
-            assert_near_abs(j[num_at(i, r, COUNT)], (up[r] - other[r]) / (2.0 * h), 1e-8);
+    double e[FEW * OUT], z[ROWS * FEW], ze[ROWS * OUT] = {0.0};
+    double *zz = calloc((size_t)ROWS * ROWS, sizeof *zz);
+    assert_int_equal(perceptron_basis_rows(&shape), ROWS);
+    perceptron_basis(&shape, p, FEW, x, t, e, z);
+    for (int k = 0; k < FEW; k++) {
+        for (int c = 0; c < ROWS; c++) {
+            const double *row = z + num_at(0, k, ROWS);
+            for (int r = c; r < ROWS; r++) {
+                zz[num_at(r, c, ROWS)] += row[r] * row[c];
+            }
+            for (int o = 0; o < OUT; o++) {
+                ze[num_at(c, o, ROWS)] += row[c] * e[num_at(k, o, FEW)];
+            }
+        }
+    }
+    perceptron_normal(&shape, p, zz, ze, gram, slope);
+    free(zz);
+}
+
+/* y - t of all samples and outputs. */
+static void residuals(const double *p, const double *x, const double *t, double *e)
+{
+    double hidden[HIDDEN];
+    for (int k = 0; k < FEW; k++) {
+        perceptron_eval(&shape, p, x + num_at(0, k, IN), hidden, e + num_at(0, k, OUT));
+        for (int o = 0; o < OUT; o++) {
+            e[num_at(o, k, OUT)] -= t[num_at(o, k, OUT)];
         }
     }
 }
 
-/* Half the gradient of the sum of squares is J'e. */
-static void the_gradient_is_that_of_the_jacobian(void **state)
+static void the_normal_equations_are_those_of_differences(void **state)
 {
     (void)state;
-    enum { N = 5 };
-    double p[COUNT], x[IN * N], t[OUT * N], e[OUT * N], j[COUNT * OUT * N], g[COUNT] = {0.0};
-    double squares = 0.0;
+    enum { M = FEW * OUT };
+    double p[COUNT], x[IN * FEW], t[M], e[M], slope[COUNT], j[M * COUNT];
+    double *gram = calloc((size_t)COUNT * COUNT, sizeof *gram);
+    assert_int_equal(perceptron_count(&shape), COUNT);
+    perceptron_start(&shape, 4, p);
+    random_vector(IN * FEW, 1, x);
+    random_vector(M, 2, t);
+    residuals(p, x, t, e);
+    for (int i = 0; i < COUNT; i++) {
+        const double h = 1e-6, keep = p[i];
+        double up[M], down[M];
+        p[i] = keep + h;
+        residuals(p, x, t, up);
+        p[i] = keep - h;
+        residuals(p, x, t, down);
+        p[i] = keep;
+        for (int r = 0; r < M; r++) {
+            j[num_at(r, i, M)] = (up[r] - down[r]) / (2.0 * h);
+        }
+    }
+    normal(p, x, t, gram, slope);
+    for (int c = 0; c < COUNT; c++) {
+        double sum = 0.0;
+        for (int r = 0; r < M; r++) {
+            sum += j[num_at(r, c, M)] * e[r];
+        }
+        assert_near_abs(slope[c], sum, 1e-7);
+        for (int i = c; i < COUNT; i++) {
+            double product = 0.0;
+            for (int r = 0; r < M; r++) {
+                product += j[num_at(r, i, M)] * j[num_at(r, c, M)];
+            }
+            assert_near_abs(gram[num_at(i, c, COUNT)], product, 1e-7);
+        }
+    }
+    free(gram);
+}
+
+/* Half the gradient of the sum of squares is J'e. */
+static void the_gradient_is_that_of_the_normal_equations(void **state)
+{
+    (void)state;
+    double p[COUNT], x[IN * FEW], t[OUT * FEW], e[OUT * FEW], slope[COUNT], g[COUNT] = {0.0};
+    double *gram = calloc((size_t)COUNT * COUNT, sizeof *gram), squares = 0.0;
     perceptron_start(&shape, 7, p);
-    random_vector(IN * N, 3, x);
-    random_vector(OUT * N, 5, t);
-    perceptron_jacobian(&shape, p, N, x, t, e, j);
-    for (int k = 0; k < N; k++) {
+    random_vector(IN * FEW, 3, x);
+    random_vector(OUT * FEW, 5, t);
+    normal(p, x, t, gram, slope);
+    for (int k = 0; k < FEW; k++) {
         perceptron_gradient_add(&shape, p, x + num_at(0, k, IN), t + num_at(0, k, OUT), g);
     }
     for (int i = 0; i < COUNT; i++) {
-        double sum = 0.0;
-        for (int r = 0; r < OUT * N; r++) {
-            sum += j[num_at(i, r, COUNT)] * e[r];
-        }
-        assert_near_abs(g[i], sum, 1e-12);
+        assert_near_abs(g[i], slope[i], 1e-12);
     }
-    for (int r = 0; r < OUT * N; r++) {
-        squares += num_sq(e[r]) / (OUT * N);
+    residuals(p, x, t, e);
+    for (int r = 0; r < OUT * FEW; r++) {
+        squares += num_sq(e[r]) / (OUT * FEW);
     }
-    assert_near_rel(perceptron_error(&shape, p, N, x, t), squares, 1e-13);
+    assert_near_rel(perceptron_error(&shape, p, FEW, x, t), squares, 1e-13);
+    free(gram);
 }
 
 /* Samples of a known network. */
@@ -259,8 +308,8 @@ static void ranges_are_checked(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_jacobian_is_that_of_differences),
-        cmocka_unit_test(the_gradient_is_that_of_the_jacobian),
+        cmocka_unit_test(the_normal_equations_are_those_of_differences),
+        cmocka_unit_test(the_gradient_is_that_of_the_normal_equations),
         cmocka_unit_test(lm_recovers_a_known_network),
         cmocka_unit_test(the_decay_is_a_ridge),
         cmocka_unit_test(adam_learns_and_repeats_itself),
