@@ -19,6 +19,8 @@ static inline size_t embedded_size(const struct embedded_file *f)
 
 extern const struct embedded_file data_files[];
 extern const int data_file_count;
+extern const struct embedded_file dataset_files[];
+extern const int dataset_file_count;
 extern const struct embedded_file openapi_files[];
 extern const int openapi_file_count;
 extern const struct embedded_file migrations_files[];

@@ -65,6 +65,11 @@ void handle_add_network(const struct api_call *call, struct api_response *res);
 void handle_remove_material(const struct api_call *call, struct api_response *res);
 void handle_remove_polar(const struct api_call *call, struct api_response *res);
 void handle_remove_network(const struct api_call *call, struct api_response *res);
+/* handle_datasets.c */
+void handle_datasets(const struct api_call *call, struct api_response *res);
+void handle_dataset(const struct api_call *call, struct api_response *res);
+void handle_add_dataset(const struct api_call *call, struct api_response *res);
+void handle_remove_dataset(const struct api_call *call, struct api_response *res);
 /* handle_meta.c */
 void handle_health(const struct api_call *call, struct api_response *res);
 void handle_ready(const struct api_call *call, struct api_response *res);

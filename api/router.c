@@ -11,6 +11,8 @@
 enum { BODY_MAX = 1 << 20, BATCH_BODY_MAX = 16 << 20 };
 
 static const char *const list_query[] = {"kind", "state", "name", "limit", "cursor", NULL};
+static const char *const add_query[] = {"name", "description", NULL};
+static const char *const dataset_query[] = {"version", "record", "format", NULL};
 static const char *const version_query[] = {"version", NULL};
 static const char *const study_list_query[] = {"state", "name", "limit", "cursor", NULL};
 static const char *const cells_query[] = {"from", "limit", NULL};
@@ -51,6 +53,10 @@ const struct route route_table[] = {
     {"POST", "/v1/networks", handle_add_network, NULL, NULL},
     {"GET", "/v1/networks/{name}", handle_networks, version_query, NULL},
     {"DELETE", "/v1/networks/{name}", handle_remove_network, version_query, NULL},
+    {"POST", "/v1/datasets", handle_add_dataset, add_query, NULL},
+    {"GET", "/v1/datasets", handle_datasets, NULL, NULL},
+    {"GET", "/v1/datasets/{name}", handle_dataset, dataset_query, NULL},
+    {"DELETE", "/v1/datasets/{name}", handle_remove_dataset, version_query, NULL},
     {"GET", "/healthz", handle_health, NULL, NULL},
     {"GET", "/readyz", handle_ready, NULL, NULL},
     {"GET", "/openapi.json", handle_openapi, NULL, NULL},
@@ -59,8 +65,12 @@ const struct route route_table[] = {
 
 size_t router_body_max(const char *method, const char *path)
 {
-    const bool many = strcmp(path, "/v1/jobs") == 0 || strcmp(path, "/v1/studies") == 0;
-    return many && strcmp(method, "POST") == 0 ? BATCH_BODY_MAX : BODY_MAX;
+    static const char *const large[] = {"/v1/jobs", "/v1/studies", "/v1/datasets"};
+    bool is_large = false;
+    for (size_t i = 0; i < sizeof large / sizeof large[0]; i++) {
+        is_large = is_large || strcmp(path, large[i]) == 0;
+    }
+    return is_large && strcmp(method, "POST") == 0 ? BATCH_BODY_MAX : BODY_MAX;
 }
 
 /* Where the parameters of a path are, still encoded. */

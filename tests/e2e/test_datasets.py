@@ -1,0 +1,132 @@
+"""Datasets over HTTP: uploads, what is refused of them, what is shown, and a network trained on one."""
+import csv
+import io
+import math
+import xml.etree.ElementTree
+
+from daemon import DaemonTest
+
+COLUMNS = ["t", "alpha_deg", "alpha_dot", "alpha_ddot", "w", "w_dot", "w_ddot", "cl", "cd", "cm"]
+
+
+def sine(name, amplitude_deg, frequency, slope=2 * math.pi, cycles=3, n=150):
+    """A pitching plate: c_l = slope alpha + 0.8 of its rate, c_m follows the rate."""
+    omega, a = 2 * math.pi * frequency, math.radians(amplitude_deg)
+    rows = {k: [] for k in COLUMNS}
+    for i in range(n):
+        t = i * cycles / frequency / n
+        s, c = math.sin(omega * t), math.cos(omega * t)
+        values = [t, amplitude_deg * s, a * omega * c, -a * omega ** 2 * s, 0, 0, 0,
+                  slope * a * s + 0.8 * a * omega * c, 0.05 + 0.01 * s * s,
+                  0.5 * math.pi * a * s - 0.4 * a * omega * c]
+        for k, v in zip(COLUMNS, values):
+            rows[k].append(v)
+    return {"name": name, "period_c_v": 1 / frequency, "start_c_v": 0, **rows}
+
+
+def dataset(name="own", **more):
+    return {"name": name, "description": "made up", **more,
+            "records": [sine(f"a{a}_f{f}", a, f) for a in (2, 4) for f in (0.06, 0.1, 0.15)]}
+
+
+def as_csv(data):
+    out = io.StringIO()
+    rows = csv.writer(out, lineterminator="\n")
+    rows.writerow(["record", "period_c_v", "start_c_v", *COLUMNS])
+    for r in data["records"]:
+        for line in zip(*(r[k] for k in COLUMNS)):
+            rows.writerow([r["name"], r["period_c_v"], r["start_c_v"], *map(repr, line)])
+    return out.getvalue()
+
+
+class Datasets(DaemonTest):
+    def test_json_and_csv_are_one(self):
+        d = self.start().wait_ready()
+        status, headers, kept = d.request("POST", "/v1/datasets", dataset())
+        self.assertEqual((status, headers["Location"], kept["version"]),
+                         (201, "/v1/datasets/own", 1), kept)
+        status, _, again = d.request("POST", "/v1/datasets?name=own", as_csv(dataset()).encode(),
+                                     {"Content-Type": "text/csv"})
+        self.assertEqual((status, again["reused"], again["hash"]), (200, True, kept["hash"]), again)
+        _, _, item = d.request("GET", "/v1/datasets/own")
+        self.assertEqual((item["description"], item["count"], item["samples"]), ("made up", 6, 900))
+        self.assertEqual([r["name"] for r in item["records"]],
+                         [r["name"] for r in dataset()["records"]])
+        self.assertAlmostEqual(item["records"][0]["alpha_deg"]["max"], 2, delta=0.01)
+        _, _, text = d.request("GET", "/v1/datasets/own?format=csv")
+        status, _, copy = d.request("POST", "/v1/datasets?name=copy", text,
+                                    {"Content-Type": "text/csv"})
+        self.assertEqual((status, copy["hash"]), (201, kept["hash"]))
+        _, _, record = d.request("GET", "/v1/datasets/own?record=a2_f0.1")
+        self.assertEqual(len(record["cl"]), 150)
+        status, headers, svg = d.request("GET", "/v1/datasets/own?record=a2_f0.1&format=svg")
+        self.assertEqual((status, headers["Content-Type"]), (200, "image/svg+xml"))
+        self.assertTrue(xml.etree.ElementTree.fromstring(svg).tag.endswith("svg"))
+        self.assertEqual(d.request("GET", "/v1/datasets/own?record=none")[0], 404)
+        self.assertEqual(d.request("GET", "/v1/datasets/own?format=svg")[0], 400)
+        self.assertEqual(d.request("DELETE", "/v1/datasets/own")[0], 204)
+        self.assertEqual(d.request("GET", "/v1/datasets/own")[0], 404)
+
+    def test_shipped(self):
+        d = self.start().wait_ready()
+        _, _, listed = d.request("GET", "/v1/datasets")
+        self.assertEqual([(e["name"], e["built_in"]) for e in listed["datasets"]],
+                         [("plate-4pct", True)])
+        _, _, item = d.request("GET", "/v1/datasets/plate-4pct")
+        self.assertGreater(item["count"], 20)
+        self.assertEqual(len(item["records"]), item["count"])
+        self.assertEqual(d.request("DELETE", "/v1/datasets/plate-4pct")[0], 409)
+        self.assertEqual(d.request("POST", "/v1/datasets", dataset("plate-4pct"))[0], 409)
+
+    def test_refusals(self):
+        d = self.start().wait_ready()
+
+        def changed(**columns):
+            data = dataset()
+            for key, change in columns.items():
+                data["records"][1][key] = change(data["records"][1][key])
+            return data
+
+        def replaced(i, v):
+            return lambda x: x[:i] + [v] + x[i + 1:]
+
+        for data, pointer, code in (
+                (changed(t=lambda x: x[:70] + [v + 1 for v in x[70:]]), "/records/1/t", "gap"),
+                (changed(t=lambda x: replaced(70, x[69])(x)), "/records/1/t", "not_increasing"),
+                (changed(alpha_deg=lambda x: [v * 57.3 for v in x]), "/records/1/alpha_deg",
+                 "out_of_range"),
+                (changed(alpha_dot=lambda x: [v * 57.3 for v in x]), "/records/1/alpha_dot",
+                 "contradiction"),
+                (changed(cl=lambda x: [0.3] * len(x)), "/records/1/cl", "constant"),
+                (changed(cm=lambda x: x[:-1]), "/records/1/cm", "wrong_length"),
+                (changed(cm=replaced(3, None)), "/records/1/cm/3", "wrong_type"),
+                (changed(start_c_v=lambda x: 1e6), "/records/1/start_c_v", "out_of_range"),
+                (changed(name=lambda x: "a2_f0.06"), "/records/1/name", "duplicate_name"),
+                (changed(name=lambda x: "a b"), "/records/1/name", "bad_name"),
+                ({**dataset(), "records": dataset()["records"][:1]}, "/records", "too_few"),
+                ({**dataset(), "records": []}, "/records", "too_few"),
+                ({"records": dataset()["records"]}, "/name", "required"),
+                ({**dataset(), "units": "deg"}, "/units", "unknown_key")):
+            with self.subTest(pointer=pointer, code=code):
+                status, _, problem = d.request("POST", "/v1/datasets", data)
+                self.assertEqual((status, problem["code"]), (422, "invalid_entry"), problem)
+                self.assertIn((pointer, code),
+                              [(e["pointer"], e["code"]) for e in problem["errors"]])
+        text = as_csv(dataset())
+        for body, pointer, code in (
+                (text.replace("alpha_dot", "rate"), "/lines/1", "unknown_key"),
+                (text.replace(",cm\n", "\n", 1), "/lines/1", "required"),
+                (text.replace(",cl,", ",", 1), "/lines/1", "required"),
+                (text.replace("\n", "\nx,1\n", 1), "/lines/2", "wrong_length"),
+                (text.replace("\na2_f0.06,", "\na2_f0.06,x", 1), "/lines/2", "wrong_type"),
+                ("", "/lines/1", "unknown_key")):
+            with self.subTest(pointer=pointer, code=code):
+                status, _, problem = d.request("POST", "/v1/datasets?name=own", body.encode(),
+                                               {"Content-Type": "text/csv"})
+                self.assertEqual((status, problem["errors"][0]["pointer"],
+                                  problem["errors"][0]["code"]), (422, pointer, code), problem)
+        for type_, target, status in (("text/plain", "?name=own", 415), ("text/csv", "", 422),
+                                      ("application/json", "", 400)):
+            self.assertEqual(d.request("POST", "/v1/datasets" + target, b"{",
+                                       {"Content-Type": type_})[0], status)
+        self.assertEqual(len(d.request("GET", "/v1/datasets")[2]["datasets"]), 1)
