@@ -1,5 +1,8 @@
-/* GET /v1/studies/{id}/map: one value of every cell over the axes. */
+/* GET /v1/studies/{id}/map: one value of every cell over the axes, in several forms. */
+#include "api/hdf5_out.h"
 #include "api/json.h"
+#include "api/map_out.h"
+#include "api/map_svg.h"
 #include "api/reader.h"
 #include "api/respond.h"
 #include "api/study.h"
@@ -83,18 +86,73 @@ static void refuse_value(struct api_response *res, const struct study_map *m,
     free(errors);
 }
 
-static void fill_map(struct api_response *res, const struct job_record *job,
-                     const struct service_study *progress, const struct study_map *m)
+static void write_json(struct json_out *out, const struct job_record *job,
+                       const struct service_study *progress, const struct study_map *m)
+{
+    json_object_begin(out);
+    json_key_string(out, "study", job->id);
+    json_key_string(out, "name", job->name);
+    json_key_string(out, "state", job_state_name(job->state));
+    json_key_integer(out, "pending", progress->n_cell - progress->done - progress->failed);
+    study_map_members(out, m);
+    json_object_end(out);
+}
+
+static void write_svg(struct json_out *out, const struct job_record *job, const struct study_map *m)
+{
+    struct map_plot plot;
+    char title[MAP_TITLE_SIZE], value[MAP_TITLE_SIZE];
+    map_plot_defaults(m, &plot);
+    if (job->name[0] != '\0') {
+        map_title(m->value_name, value);
+        (void)snprintf(title, sizeof title, "%.100s: %.90s", job->name, value);
+        plot.title = title;
+    }
+    map_svg(out, &plot);
+}
+
+static void fill_map(const struct api_call *call, struct api_response *res,
+                     const struct job_record *job, const struct service_study *progress,
+                     const struct study_map *m, enum map_format format)
 {
     struct json_out out = {0};
-    json_object_begin(&out);
-    json_key_string(&out, "study", job->id);
-    json_key_string(&out, "name", job->name);
-    json_key_string(&out, "state", job_state_name(job->state));
-    json_key_integer(&out, "pending", progress->n_cell - progress->done - progress->failed);
-    study_map_members(&out, m);
-    json_object_end(&out);
-    respond_json(res, 200, &out);
+    char *body = NULL;
+    size_t size = 0;
+    if (format == MAP_HDF5) {
+        body = hdf5_out_map(m, &size);
+    } else {
+        if (format == MAP_JSON) {
+            write_json(&out, job, progress, m);
+        } else if (format == MAP_SVG) {
+            write_svg(&out, job, m);
+        } else {
+            (format == MAP_CSV ? map_out_csv : map_out_npy)(&out, m);
+        }
+        body = json_out_take(&out, &size);
+    }
+    api_response_header(res, "Vary", "Accept");
+    /* A map is final with its study; until then each answer may differ. */
+    const bool final = job->state == JOB_DONE || job->state == JOB_CANCELLED;
+    respond_tagged(call, res, map_format_type(format),
+                   final ? respond_immutable : respond_revalidate, body, size);
+}
+
+/* By name, else by what the client accepts. MAP_FORMATS when the answer is given. */
+static enum map_format format_of(const struct api_call *call, struct api_response *res)
+{
+    const char *name = api_query_get(call->req, "format");
+    const enum map_format format =
+        name != NULL ? map_format_of(name) : map_format_accepted(call->req->accept);
+    if (format == MAP_FORMATS) {
+        struct failure_list *errors = calloc(1, sizeof *errors);
+        if (errors != NULL) {
+            failure_set(failure_add(errors), ST_INVALID, "?format", "unknown_value",
+                        "json, csv, npy, hdf5 or svg", name, "there is no such form of a map");
+        }
+        problem_response(res, PROBLEM_BAD_QUERY, "there is no such form of a map", errors, NULL);
+        free(errors);
+    }
+    return format;
 }
 
 void handle_map(const struct api_call *call, struct api_response *res)
@@ -105,6 +163,10 @@ void handle_map(const struct api_call *call, struct api_response *res)
     struct service_study progress;
     struct map_read read = {.seen = 0};
     if (!study_find(call, res, &job, &progress)) {
+        return;
+    }
+    const enum map_format format = format_of(call, res);
+    if (format == MAP_FORMATS) {
         return;
     }
     struct study *study = study_of_job(call, res, job.id);
@@ -124,7 +186,7 @@ void handle_map(const struct api_call *call, struct api_response *res)
     } else if (read.composite || (read.seen > 0 && read.absent == read.seen)) {
         refuse_value(res, &m, &read);
     } else {
-        fill_map(res, &job, &progress, &m);
+        fill_map(call, res, &job, &progress, &m, format);
     }
     study_map_done(&m);
     study_destroy(study);

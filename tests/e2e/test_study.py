@@ -1,8 +1,12 @@
 """Studies through the real daemon: maps, reuse, cancel, fairness, kill -9, any number of workers."""
+import csv
+import io
 import json
 import sqlite3
+import struct
 import time
 import unittest
+import xml.etree.ElementTree
 from pathlib import Path
 
 from daemon import DaemonTest, simulation
@@ -42,6 +46,23 @@ class Study(DaemonTest):
             time.sleep(0.01)
         raise AssertionError(f"{cells}: {d.log()}")
 
+    def check_forms(self, d, key, values):
+        """The same map as a table, an array, a file and a drawing; by name or by type."""
+        path = f"/v1/studies/{key}/map?value=means.cl"
+        flat = [v for row in values for v in row]
+        _, headers, table = d.request("GET", path, headers={"Accept": "text/csv"})
+        self.assertTrue(headers["Content-Type"].startswith("text/csv"))
+        rows = list(csv.reader(io.StringIO(table.decode())))
+        self.assertEqual([float(r[-2]) for r in rows[1:]], flat)
+        raw = d.request("GET", path + "&format=npy")[2]
+        self.assertIn(b"'shape': (3,2,)", raw[:128])
+        self.assertEqual(list(struct.unpack("<6d", raw[-48:])), flat)
+        self.assertEqual(d.request("GET", path + "&format=hdf5")[2][:4], b"\x89HDF")
+        drawing = d.request("GET", path + "&format=svg")[2]
+        self.assertTrue(xml.etree.ElementTree.fromstring(drawing).tag.endswith("}svg"))
+        tag = d.request("GET", path + "&format=svg")[1]["ETag"]
+        self.assertEqual(d.request("GET", path + "&format=svg", headers={"If-None-Match": tag})[0], 304)
+
     def test_a_grid(self):
         d = self.start("--workers", "2").wait_ready()
         study = grid(simulation(duration=0.05), span(ANGLE, -45, 45, 3),
@@ -67,6 +88,7 @@ class Study(DaemonTest):
         self.assertEqual([a["dimension"] for a in found["axes"]], [0, 1, 1])
         self.assertEqual(found["values"][2][0], cell["summary"]["means"]["cl"])
         self.assertEqual(found["status"], [["done"] * 2] * 3)
+        self.check_forms(d, key, found["values"])
         pages = self.get(d, key, "/cells?limit=4")
         rest = self.get(d, key, f"/cells?from={pages['next']}")
         self.assertEqual([c["cell"] for c in pages["cells"] + rest["cells"]], list(range(6)))
