@@ -15,8 +15,9 @@
 static int help_main(int argc, char **argv);
 
 static const struct command commands[] = {
-    {"run", run_main, "CASE.json [--series FILE.csv] [--document NAME] [--text]",
-     "compute a case here and print its summary; CASE '-' reads standard input"},
+    {"run", run_main, "CASE.json [--series FILE.csv] [--document NAME] [--text] [--value NAME]",
+     "compute a case here and print its summary, or a study and print the map of a value (default\n"
+     "      verdict); CASE '-' reads standard input"},
     {"loop", loop_main,
      "--frequency F | --motion FILE.csv [--polar NAME|FILE.json] [--dynamic TYPE]\n"
      "      [--network NAME|FILE.json] [--mean-deg A] [--amplitude-deg A] [--plunge W] "
@@ -35,8 +36,10 @@ static const struct command commands[] = {
     {"submit", remote_submit, "CASE.json... [--wait]", "hand cases to the daemon, print their ids"},
     {"wait", remote_wait, "ID... [--timeout SECONDS]", "wait until jobs are finished"},
     {"get", remote_get,
-     "ID [job|summary|case|series|damping|loads|modes|section|static|stability] [--csv]",
-     "print a result of a job as JSON (series: also CSV); default summary"},
+     "ID [job|summary|case|series|damping|loads|modes|section|static|stability|study|cells|map] "
+     "[--csv] [--value NAME]",
+     "print a result of a job as JSON (series: also CSV); default summary; of a study its state, "
+     "its\n      cells or the map of a value"},
     {"show", remote_show, "ID", "print the summary of a job as a table"},
     {"cancel", remote_cancel, "ID...", "cancel jobs"},
     {"list", remote_list, "[--state STATE] [--kind KIND] [--limit N] [--json]",

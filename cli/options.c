@@ -32,6 +32,7 @@ static const struct option long_options[] = {
     {"description", required_argument, NULL, 'X'},
     {"inputs", required_argument, NULL, 'I'},
     {"optimiser", required_argument, NULL, 'O'},
+    {"value", required_argument, NULL, 'V'},
     {"hidden", required_argument, NULL, 'H'},
     {"epochs", required_argument, NULL, 'E'},
     {"decay", required_argument, NULL, 'Y'},
@@ -70,7 +71,7 @@ static const struct target targets[] = {
     TARGET('E', NUMBER, epochs),    TARGET('Y', NUMBER, decay),
     TARGET('S', NUMBER, seed),      TARGET('w', FLAG, wait),
     TARGET('c', FLAG, csv),         TARGET('j', FLAG, json),
-    TARGET('x', FLAG, text),
+    TARGET('V', TEXT, value),       TARGET('x', FLAG, text),
 };
 
 static bool parse_number(const char *text, bool seconds, double *out)

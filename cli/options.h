@@ -23,6 +23,7 @@ struct options {
     const char *description; /* -X */
     const char *inputs;      /* -I */
     const char *optimiser;   /* -O */
+    const char *value;       /* -V */
     /* Numbers, NaN when not given. */
     double mean_deg;      /* -m */
     double amplitude_deg; /* -a */

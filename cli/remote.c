@@ -26,22 +26,28 @@ static struct http_client *connect_to(const struct options *o)
     return client;
 }
 
-/* Identifiers go into paths as they are, so they must be plain. */
+/* Identifiers and values go into paths as they are, so they must be plain. */
 static bool is_plain(const char *text)
 {
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
     const size_t n = strlen(text);
-    return n > 0 && n < 64 && strspn(text, plain) == n;
+    return n > 0 && n < 128 && strspn(text, plain) == n;
+}
+
+static bool path_of(const char *id, const char *collection, const char *tail,
+                    char path[PATH_MAX_SIZE])
+{
+    if (!is_plain(id) || strchr(id, '.') != NULL) { /* ".." would lead elsewhere */
+        (void)fprintf(stderr, "aerom: '%s' is no job id\n", id);
+        return false;
+    }
+    (void)snprintf(path, PATH_MAX_SIZE, "/v1/%s/%s%s", collection, id, tail);
+    return true;
 }
 
 static bool job_path(const char *id, const char *tail, char path[PATH_MAX_SIZE])
 {
-    if (!is_plain(id)) {
-        (void)fprintf(stderr, "aerom: '%s' is no job id\n", id);
-        return false;
-    }
-    (void)snprintf(path, PATH_MAX_SIZE, "/v1/jobs/%s%s", id, tail);
-    return true;
+    return path_of(id, "jobs", tail, path);
 }
 
 /* One request whose answer must be a success; everything else is reported as about `source`. */
@@ -195,40 +201,55 @@ int remote_wait(int argc, char **argv)
     return code;
 }
 
-/* Fetches /v1/jobs/{id}{tail}; the answer is the caller's. */
-static bool fetch(const struct options *o, const char *id, const char *tail,
-                  struct http_answer *answer)
+/* Fetches a path; the answer is the caller's. */
+static bool fetch(const struct options *o, const char *path, struct http_answer *answer)
 {
-    char path[PATH_MAX_SIZE];
-    if (!job_path(id, tail, path)) {
-        return false;
-    }
     struct http_client *client = connect_to(o);
-    const bool done = client != NULL && ask(client, id, "GET", path, NULL, 0, answer);
+    const bool done = client != NULL && ask(client, o->operand[0], "GET", path, NULL, 0, answer);
     http_client_destroy(client);
     return done;
 }
 
-/* The documents get knows, and their place below the job. */
-static const char *document_tail(const char *document, bool csv)
+/* Appends "&key=value" (or "?" first) when there is a value; only plain values are possible. */
+static bool add_query(char path[PATH_MAX_SIZE], const char *key, const char *value)
 {
-    static const char *const table[][2] = {
-        {"job", ""},
-        {"summary", "/summary"},
-        {"case", "/case"},
-        {"damping", "/damping"},
-        {"loads", "/loads"},
-        {"modes", "/modes"},
-        {"section", "/section"},
-        {"static", "/static"},
-        {"stability", "/stability"},
-    };
-    if (strcmp(document, "series") == 0) {
-        return csv ? "/series?format=csv" : "/series";
+    if (value == NULL) {
+        return true;
     }
-    for (size_t i = 0; !csv && i < sizeof table / sizeof table[0]; i++) {
-        if (strcmp(table[i][0], document) == 0) {
-            return table[i][1];
+    if (!is_plain(value)) {
+        (void)fprintf(stderr, "aerom: '%s' is no %s\n", value, key);
+        return false;
+    }
+    const size_t used = strlen(path);
+    (void)snprintf(path + used, PATH_MAX_SIZE - used, "%c%s=%s",
+                   strchr(path, '?') == NULL ? '?' : '&', key, value);
+    return true;
+}
+
+/* The documents get knows, and their place below the job or the study. */
+static const struct document {
+    const char *name, *collection, *tail;
+} documents[] = {
+    {"job", "jobs", ""},
+    {"summary", "jobs", "/summary"},
+    {"case", "jobs", "/case"},
+    {"series", "jobs", "/series"},
+    {"damping", "jobs", "/damping"},
+    {"loads", "jobs", "/loads"},
+    {"modes", "jobs", "/modes"},
+    {"section", "jobs", "/section"},
+    {"static", "jobs", "/static"},
+    {"stability", "jobs", "/stability"},
+    {"study", "studies", ""},
+    {"cells", "studies", "/cells"},
+    {"map", "studies", "/map"},
+};
+
+static const struct document *find_document(const char *name)
+{
+    for (size_t i = 0; i < sizeof documents / sizeof documents[0]; i++) {
+        if (strcmp(documents[i].name, name) == 0) {
+            return &documents[i];
         }
     }
     return NULL;
@@ -237,15 +258,19 @@ static const char *document_tail(const char *document, bool csv)
 int remote_get(int argc, char **argv)
 {
     struct options o;
-    if (!options_parse(argc, argv, "uc", 1, 2, &o)) {
+    char path[PATH_MAX_SIZE];
+    if (!options_parse(argc, argv, "ucV", 1, 2, &o)) {
         return command_usage("get");
     }
-    const char *tail = document_tail(o.n_operand == 2 ? o.operand[1] : "summary", o.csv);
-    if (tail == NULL) {
+    const struct document *d = find_document(o.n_operand == 2 ? o.operand[1] : "summary");
+    if (d == NULL || (o.csv && strcmp(d->name, "series") != 0) ||
+        (o.value != NULL && strcmp(d->name, "map") != 0)) {
         return command_usage("get");
     }
     struct http_answer answer = {0};
-    if (!fetch(&o, o.operand[0], tail, &answer)) {
+    if (!path_of(o.operand[0], d->collection, d->tail, path) ||
+        !add_query(path, "format", o.csv ? "csv" : NULL) || !add_query(path, "value", o.value) ||
+        !fetch(&o, path, &answer)) {
         return COMMAND_FAILED;
     }
     bool done = file_write("-", answer.body, answer.size);
@@ -263,7 +288,8 @@ int remote_show(int argc, char **argv)
         return command_usage("show");
     }
     struct http_answer answer = {0};
-    if (!fetch(&o, o.operand[0], "/summary", &answer)) {
+    char path[PATH_MAX_SIZE];
+    if (!job_path(o.operand[0], "/summary", path) || !fetch(&o, path, &answer)) {
         return COMMAND_FAILED;
     }
     const bool shown = report_summary(stdout, answer.body, answer.size);
@@ -294,22 +320,6 @@ int remote_cancel(int argc, char **argv)
     }
     http_client_destroy(client);
     return code;
-}
-
-/* Appends "&key=value" (or "?" first) when there is a value; only plain values are possible. */
-static bool add_query(char path[PATH_MAX_SIZE], const char *key, const char *value)
-{
-    if (value == NULL) {
-        return true;
-    }
-    if (!is_plain(value)) {
-        (void)fprintf(stderr, "aerom: '%s' is no %s\n", value, key);
-        return false;
-    }
-    const size_t used = strlen(path);
-    (void)snprintf(path + used, PATH_MAX_SIZE - used, "%c%s=%s",
-                   strchr(path, '?') == NULL ? '?' : '&', key, value);
-    return true;
 }
 
 int remote_list(int argc, char **argv)

@@ -1,9 +1,11 @@
 #include "cli/run.h"
 
+#include "cli/clock.h"
 #include "cli/command.h"
 #include "cli/file.h"
 #include "cli/options.h"
 #include "cli/report.h"
+#include "cli/study.h"
 
 #include "api/case.h"
 #include "api/channel.h"
@@ -14,14 +16,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-static double cpu_seconds(void)
-{
-    struct timespec t = {0};
-    (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static bool has_document(enum case_kind kind, const char *document)
 {
@@ -35,13 +29,9 @@ static bool has_document(enum case_kind kind, const char *document)
     return *known != NULL;
 }
 
-static bool read_case(const struct library *lib, const char *file, struct api_case **out)
+static bool read_case(const struct library *lib, const char *file, const char *text, size_t size,
+                      struct api_case **out)
 {
-    char *text = NULL;
-    size_t size = 0;
-    if (!file_read(file, router_body_max("POST", "/v1/jobs"), &text, &size)) {
-        return false;
-    }
     struct failure_list *problems = calloc(1, sizeof *problems);
     enum status st = ST_NO_MEMORY;
     if (problems != NULL) {
@@ -53,7 +43,6 @@ static bool read_case(const struct library *lib, const char *file, struct api_ca
         (void)fprintf(stderr, "aerom: %s: %s\n", file, status_text(st));
     }
     free(problems);
-    free(text);
     return st == ST_OK;
 }
 
@@ -123,12 +112,12 @@ static bool compute(const struct options *o, const struct api_case *c)
     const struct case_def *def = api_case_def(c);
     struct sim *sim = NULL;
     struct failure fail = {0};
-    const double start = cpu_seconds();
+    const double start = clock_thread_cpu();
     enum status st = sim_create(def, &sim, &fail);
     if (st == ST_OK) {
         st = sim_run(sim, NULL, &fail);
     }
-    const double cpu_s = cpu_seconds() - start;
+    const double cpu_s = clock_thread_cpu() - start;
     bool done = false;
     if (st != ST_OK) {
         const struct failure_list list = {.count = 1, .total = 1, .item = {fail}};
@@ -142,34 +131,58 @@ out:
     return done;
 }
 
+static bool run_case(const struct options *o, const struct library *lib, const char *text,
+                     size_t size)
+{
+    struct api_case *c = NULL;
+    if (o->value != NULL) {
+        (void)fprintf(stderr, "aerom: --value is for studies\n");
+        return false;
+    }
+    if (!read_case(lib, o->operand[0], text, size, &c)) {
+        return false;
+    }
+    const enum case_kind kind = api_case_def(c)->kind;
+    bool done = o->document == NULL || has_document(kind, o->document);
+    if (done && o->series != NULL && !case_kind_records(kind)) {
+        (void)fprintf(stderr, "aerom: a case of kind %s has no series\n", case_kind_name(kind));
+        done = false;
+    }
+    done = done && compute(o, c);
+    api_case_destroy(c);
+    return done;
+}
+
+static bool run_text(const struct options *o, const struct library *lib, const char *text,
+                     size_t size)
+{
+    if (!study_text(text, size)) {
+        return run_case(o, lib, text, size);
+    }
+    if (o->document != NULL || o->series != NULL || o->text) {
+        (void)fprintf(stderr, "aerom: a study has a map and nothing else: --value\n");
+        return false;
+    }
+    return study_run(o, lib, text, size);
+}
+
 int run_main(int argc, char **argv)
 {
     struct options o;
-    if (!options_parse(argc, argv, "odx", 1, 1, &o) || (o.text && o.document != NULL)) {
+    if (!options_parse(argc, argv, "odxV", 1, 1, &o) || (o.text && o.document != NULL)) {
         return command_usage("run");
     }
     struct library *lib = NULL;
-    struct api_case *c = NULL;
     struct failure fail = {0};
+    char *text = NULL;
+    size_t size = 0;
     bool done = false;
     if (library_create_builtin(&lib, &fail) != ST_OK) {
         (void)fprintf(stderr, "aerom: shipped library: %s: %s\n", fail.pointer, fail.detail);
-        goto out;
+    } else if (file_read(o.operand[0], router_body_max("POST", "/v1/jobs"), &text, &size)) {
+        done = run_text(&o, lib, text, size);
     }
-    if (!read_case(lib, o.operand[0], &c)) {
-        goto out;
-    }
-    const enum case_kind kind = api_case_def(c)->kind;
-    if (o.document != NULL && !has_document(kind, o.document)) {
-        goto out;
-    }
-    if (o.series != NULL && !case_kind_records(kind)) {
-        (void)fprintf(stderr, "aerom: a case of kind %s has no series\n", case_kind_name(kind));
-        goto out;
-    }
-    done = compute(&o, c);
-out:
-    api_case_destroy(c);
+    free(text);
     library_destroy(lib);
     return done ? COMMAND_OK : COMMAND_FAILED;
 }

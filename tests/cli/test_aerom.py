@@ -492,6 +492,64 @@ class Run(unittest.TestCase):
         self.assertEqual((result.returncode, result.stdout), (1, ""))
 
 
+class Studies(unittest.TestCase):
+    """Studies computed without a daemon."""
+
+    @staticmethod
+    def study(vary, **solver):
+        return json.dumps({"schema_version": 1, "kind": "study", "type": "grid",
+                           "case": short_case(**solver), "vary": vary})
+
+    SPEEDS = {"pointer": "/flow/speed_m_s", "values": [3, 6]}
+    ANGLES = {"pointer": "/beam/section/layup/0/angle_deg", "from": -45, "to": 45, "count": 3}
+
+    def test_map_is_that_of_single_runs(self):
+        result = aerom("run", "-", "--value", "means.cl", text=self.study([self.ANGLES, self.SPEEDS]))
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        found = json.loads(result.stdout)
+        self.assertEqual(found["shape"], [3, 2])
+        for i, angle in enumerate((-45, 0, 45)):
+            for j, speed in enumerate((3, 6)):
+                case = short_case()
+                case["beam"]["section"]["layup"][0]["angle_deg"] = angle
+                case["flow"]["speed_m_s"] = speed
+                alone = json.loads(aerom("run", "-", text=json.dumps(case)).stdout)
+                self.assertEqual(found["values"][i][j], alone["means"]["cl"])
+
+    def test_what_is_wrong_is_named(self):
+        wrong = dict(self.SPEEDS, pointer="/flow/sped")
+        result = aerom("run", "-", text=self.study([wrong]))
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        self.assertIn("/vary/0/pointer", result.stderr)
+        self.assertIn("speed_m_s", result.stderr)
+        for more in (["--value", "nothing"], ["--value", "means"], ["--text"], ["--document", "modes"]):
+            with self.subTest(more=more):
+                result = aerom("run", "-", *more, text=self.study([self.SPEEDS], duration_s=0.01))
+                self.assertEqual((result.returncode, result.stdout), (1, ""))
+                self.assertIn("--value", result.stderr)
+        result = aerom("run", "-", "--value", "cl", text=json.dumps(short_case()))
+        self.assertEqual(result.returncode, 1)
+
+    def test_a_cell_fails_alone(self):
+        study = json.loads(self.study([dict(self.SPEEDS, values=[3, 60])], duration_s=0.02))
+        study["case"]["solver"]["start"] = {"type": "equilibrium"}
+        study["case"]["beam"]["section"]["layup"][0]["angle_deg"] = 45
+        study["case"]["aerodynamics"] = {"polar": "plate-4pct-channel", "lifting_line": None}
+        result = aerom("run", "-", text=json.dumps(study))
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(json.loads(result.stdout)["status"], ["done", "failed"])
+        self.assertIn("cell 1 failed (no_equilibrium)", result.stderr)
+
+    def test_shipped_study_is_good(self):
+        for path in sorted((ROOT / "data" / "studies").glob("*.json")):
+            study = json.loads(path.read_text(encoding="utf-8"))
+            study["case"]["solver"]["duration_s"] = 0.01
+            for axis in study["vary"]:
+                axis["count"] = 2
+            with self.subTest(study=path.name):
+                self.assertEqual(aerom("run", "-", text=json.dumps(study)).returncode, 0)
+
+
 class Scripted(http.server.BaseHTTPRequestHandler):
     """Answers each request with the next (status, document) of the server's script and keeps what
     was asked."""
@@ -603,7 +661,7 @@ class Remote(unittest.TestCase):
         self.assertEqual(self.server.asked[0][1], "/v1/jobs?state=done&kind=simulation&limit=5")
 
     def test_ids_cannot_change_the_path(self):
-        for name in ("../polars", "a/b", "a?b", "", "a%2e"):
+        for name in ("../polars", "..", "a/b", "a?b", "", "a%2e"):
             with self.subTest(id=name):
                 result = self.play(arguments=["get", name])
                 self.assertEqual((result.returncode, result.stdout), (1, ""))
@@ -720,6 +778,22 @@ class Daemon(unittest.TestCase):
         printed = re.search(r'"frequency_hz":([0-9.]+),"ratio":([-0-9.]+)', text)
         self.assertAlmostEqual(root["frequency_hz"] / float(printed.group(1)), 1, delta=1e-3)
         self.assertAlmostEqual(root["ratio"], float(printed.group(2)), delta=1e-4)
+
+    def test_study_through_the_daemon_and_without(self):
+        study = json.loads(Studies.study([Studies.ANGLES, Studies.SPEEDS]))
+        job_id, path = self.submit(study)
+        there = aerom("get", job_id, "map", "--value", "damping.tip_plunge", url=self.url)
+        here = aerom("run", path, "--value", "damping.tip_plunge")
+        self.assertEqual((there.returncode, here.returncode), (0, 0), there.stderr + here.stderr)
+        there, here = json.loads(there.stdout), json.loads(here.stdout)
+        self.assertEqual(there["values"], here["values"])
+        self.assertEqual(there["axes"], here["axes"])
+        progress = json.loads(aerom("get", job_id, "study", url=self.url).stdout)
+        self.assertEqual(progress["cells"]["done"], 6)
+        cells = json.loads(aerom("get", job_id, "cells", url=self.url).stdout)["cells"]
+        self.assertEqual([c["cell"] for c in cells], list(range(6)))
+        self.assertEqual(aerom("get", job_id, "summary", url=self.url).returncode, 1)
+        self.assertEqual(aerom("get", job_id, "study", "--value", "cl", url=self.url).returncode, 2)
 
     def test_unknown_job(self):
         result = aerom("get", "00000000-0000-7000-8000-000000000000", url=self.url)
