@@ -22,7 +22,7 @@ const char *const section_type_names[] = {[SECTION_STRIP] = "strip",
                                           [SECTION_PROPERTIES] = "properties",
                                           NULL};
 static const char *const chordwise_names[] = {
-    [CHORDWISE_FREE] = "free", [CHORDWISE_RIGID] = "rigid", NULL};
+    [CHORDWISE_FREE] = "free", [CHORDWISE_RIGID] = "rigid", [CHORDWISE_CLAMPED] = "clamped", NULL};
 static const char *const wall_shear_names[] = {
     [WALL_SHEAR_RIGID] = "rigid", [WALL_SHEAR_FLEXIBLE] = "flexible", NULL};
 static const char *const inertia_axis_names[] = {[INERTIA_ELASTIC_AXIS] = "elastic_axis",

@@ -38,6 +38,23 @@ static void layup_pointer(const struct shape *s, const char *pointer, int l, cha
     }
 }
 
+static const char *const chordwise_name[] = {
+    [CHORDWISE_FREE] = "free", [CHORDWISE_RIGID] = "rigid", [CHORDWISE_CLAMPED] = "clamped"};
+
+/* Only a flat section bends across as a whole: the corners of others hold it. */
+static void check_chordwise(const struct shape *s, const char *pointer, struct failure_list *out)
+{
+    const bool flat = s->type == SECTION_STRIP ||
+                      (s->type == SECTION_CONTOUR && s->n_wall == 1 && !s->wall[0].curved);
+    if (s->chordwise == CHORDWISE_CLAMPED && !flat) {
+        char at[160];
+        (void)snprintf(at, sizeof at, "%.120s/chordwise_curvature", pointer);
+        failure_set(failure_add(out), ST_INVALID, at, "not_flat", "\"free\" or \"rigid\"",
+                    chordwise_name[s->chordwise],
+                    "only a section of one straight wall bends across as a whole");
+    }
+}
+
 static void check_walls(const struct section_def *section, const char *pointer,
                         struct failure_list *out)
 {
@@ -73,6 +90,7 @@ static void check_walls(const struct section_def *section, const char *pointer,
     if (out->total == before) {
         shape_check(s, pointer, out);
     }
+    check_chordwise(s, pointer, out);
 }
 
 /* `shear` is that of the whole beam: a section without known shear cannot serve a beam that keeps
@@ -111,6 +129,23 @@ static void check_wall_shear(const struct section_def *section, const struct sec
     }
 }
 
+/* A curvature across that the clamp holds brings freedoms to every node of the beam (beam.h). */
+static void check_same_chordwise(const struct section_def *section,
+                                 const struct section_def *before, const char *pointer,
+                                 struct failure_list *out)
+{
+    const enum chordwise_curvature is = section->shape.chordwise, was = before->shape.chordwise;
+    if ((is == CHORDWISE_CLAMPED) != (was == CHORDWISE_CLAMPED)) {
+        char at[160], expected[64];
+        (void)snprintf(at, sizeof at, "%.120s/chordwise_curvature", pointer);
+        (void)snprintf(expected, sizeof expected, "\"%s\", as the station before",
+                       chordwise_name[was]);
+        failure_set(failure_add(out), ST_INVALID, at, "chordwise_differs", expected,
+                    chordwise_name[is],
+                    "the clamp holds the curvature across of all sections of a beam or of none");
+    }
+}
+
 /* Stations ascend from the root to the tip, at most two at one place between them, and neighbours
  * apart from each other can be blended. */
 static void check_stations(const struct beam_def *b, struct failure_list *out)
@@ -119,6 +154,9 @@ static void check_stations(const struct beam_def *b, struct failure_list *out)
     for (int i = 0; i < b->n_station; i++) {
         (void)snprintf(pointer, sizeof pointer, "/beam/stations/%d/section", i);
         check_section(&b->station[i].section, beam_def_root(b)->shear, pointer, out);
+        if (i > 0) {
+            check_same_chordwise(&b->station[i].section, &b->station[i - 1].section, pointer, out);
+        }
         if (i > 0 && beam_def_root(b)->shear == SHEAR_RETAINED) {
             check_wall_shear(&b->station[i].section, &b->station[i - 1].section, pointer, out);
         }

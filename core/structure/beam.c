@@ -16,20 +16,21 @@ enum {
 
 int beam_index(const struct beam *b, int node, enum beam_freedom freedom)
 {
-    if ((int)freedom >= b->node_freedoms) {
+    const int slot = b->slot[freedom];
+    if (slot < 0) {
         return -1;
     }
     if (node > 0) {
-        return b->node_freedoms * (node - 1) + (int)freedom;
+        return b->node_freedoms * (node - 1) + slot;
     }
     const int last = b->node_freedoms * b->mesh.n_element;
     switch (b->root) {
     case ROOT_WARPING_RESTRAINED:
         return -1;
     case ROOT_WARPING_FREE: /* theta' and what follows it */
-        return freedom >= D_DTHETA ? last + (int)(freedom - D_DTHETA) : -1;
+        return slot >= D_DTHETA ? last + slot - D_DTHETA : -1;
     case ROOT_FREE:
-        return last + (int)freedom;
+        return last + slot;
     }
     assert(false);
     return -1;
@@ -39,7 +40,8 @@ enum beam_freedom beam_freedom_at(const struct beam *b, int index)
 {
     const int last = b->node_freedoms * b->mesh.n_element;
     const bool warping = b->root == ROOT_WARPING_FREE && index >= last;
-    return (enum beam_freedom)(warping ? (int)D_DTHETA + index - last : index % b->node_freedoms);
+    const int slot = warping ? D_DTHETA + index - last : index % b->node_freedoms;
+    return (enum beam_freedom)b->freedom[slot];
 }
 
 /* Index of local freedom i of element e. */
@@ -173,22 +175,29 @@ static enum status assemble(const struct beam_spec *spec, struct beam *b)
     return ST_OK;
 }
 
+/* The freedoms of a node: those of any beam, and what its sections have beyond. */
+static void choose_freedoms(const struct beam_spec *spec, struct beam *b)
+{
+    for (int f = 0; f < BEAM_NODE_MOST; f++) {
+        const bool has = element_has(spec->section, spec->shear, (enum beam_freedom)f);
+        b->slot[f] = has ? b->node_freedoms : -1;
+        if (has) {
+            b->freedom[b->node_freedoms++] = f;
+        }
+    }
+}
+
 enum status beam_build(const struct beam_spec *spec, struct beam *out)
 {
     const struct beam_mesh *mesh = spec->mesh;
     const int n_element = mesh->n_element;
-    const bool wide = spec->shear == SHEAR_RETAINED && spec->section->wide;
-    const int node_freedoms = wide ? (int)BEAM_NODE_MOST : (int)BEAM_NODE_FREEDOMS;
+    struct beam b = {.length = mesh->z[n_element], .shear = spec->shear, .root = spec->root};
+    choose_freedoms(spec, &b);
     const int root_freedoms[] = {[ROOT_WARPING_RESTRAINED] = 0,
-                                 [ROOT_WARPING_FREE] = node_freedoms - D_DTHETA,
-                                 [ROOT_FREE] = node_freedoms};
-    const int n = node_freedoms * n_element + root_freedoms[spec->root];
+                                 [ROOT_WARPING_FREE] = b.node_freedoms - D_DTHETA,
+                                 [ROOT_FREE] = b.node_freedoms};
+    const int n = b.n_dof = b.node_freedoms * n_element + root_freedoms[spec->root];
     const size_t size = (size_t)n * (size_t)n, nodes = (size_t)n_element + 1;
-    struct beam b = {.length = mesh->z[n_element],
-                     .shear = spec->shear,
-                     .root = spec->root,
-                     .node_freedoms = node_freedoms,
-                     .n_dof = n};
     b.k = calloc(2 * size + BEAM_RIGID * (size_t)n, sizeof *b.k);
     b.inner = malloc((size_t)(BEAM_INNER * OUTER) * (size_t)n_element * sizeof *b.inner);
     if (spec->shear == SHEAR_RETAINED) {

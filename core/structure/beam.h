@@ -7,7 +7,8 @@
  * modes condensed in the element; linear alone cannot follow the axial strain that bending of a
  * one-sided laminate asks for (N = 0) and locks. With retained shear each element also has linear
  * shear strains inside, condensed as well; with flexible walls besides the nodes have sigma, the
- * surplus of the warping (warping.h), interpolated like w. A struct beam owns its arrays; beam_done
+ * surplus of the warping (warping.h), interpolated like w, and those of a flat section whose
+ * shape the clamp holds the amplitudes of camber.h. A struct beam owns its arrays; beam_done
  * accepts a zeroed struct. Immutable after beam_build. */
 #ifndef AEROM_CORE_STRUCTURE_BEAM_H
 #define AEROM_CORE_STRUCTURE_BEAM_H
@@ -16,7 +17,20 @@
 
 #include <stdbool.h>
 
-enum beam_freedom { D_W, D_U, D_DU, D_V, D_DV, D_THETA, D_DTHETA, D_SURPLUS, BEAM_NODE_MOST };
+enum beam_freedom {
+    D_W,
+    D_U,
+    D_DU,
+    D_V,
+    D_DV,
+    D_THETA,
+    D_DTHETA,
+    D_SURPLUS,
+    D_LAG,
+    D_TURN,
+    D_CAMBER,
+    BEAM_NODE_MOST
+};
 enum { BEAM_NODE_FREEDOMS = D_SURPLUS }; /* those of any beam */
 /* Rigid motions: along x, y, z, about the axis (nose-up), and about x at the root, tip up. */
 enum beam_rigid { RIGID_U, RIGID_V, RIGID_W, RIGID_TWIST, RIGID_FLAP, BEAM_RIGID };
@@ -24,8 +38,8 @@ enum { BEAM_GAUSS = 4 }; /* points of an element at which its section is asked f
 
 /* Are the transverse shears condensed (zero shear force strain energy) or kept (Timoshenko)? */
 enum shear_model { SHEAR_CONDENSED, SHEAR_RETAINED };
-/* The clamp holds w, u, psi, v, phi, theta; it may or may not hold the warping, theta'. A free root
- * holds nothing (rigid-body tests). */
+/* The clamp holds w, u, psi, v, phi, theta; it may or may not hold the warping, theta', and with
+ * it the shape of a flat section (camber.h). A free root holds nothing (rigid-body tests). */
 enum root_warping { ROOT_WARPING_RESTRAINED, ROOT_WARPING_FREE, ROOT_FREE };
 
 struct beam_mass {
@@ -58,7 +72,7 @@ struct beam_spec {
     const struct beam_mass *mass; /* each at a node of the mesh */
 };
 
-enum { BEAM_OUTER = 2 * BEAM_NODE_MOST, BEAM_INNER = 10 };
+enum { BEAM_OUTER = 2 * BEAM_NODE_MOST, BEAM_INNER = 16 };
 
 /* In k and m the internal freedoms of an element follow its nodes statically. Their own inertia
  * adds w^2 r x to them in a motion x of angular frequency w, r = K_ii^-1 (M_io + M_ii inner). */
@@ -72,10 +86,12 @@ struct beam {
     struct beam_mesh mesh;
     enum shear_model shear;
     enum root_warping root;
-    int node_freedoms; /* BEAM_NODE_FREEDOMS or BEAM_NODE_MOST */
-    int n_dof;         /* free ones; a free root warping or root comes last */
-    double *k;         /* stiffness (n_dof x n_dof) */
-    double *m;         /* mass      (n_dof x n_dof) */
+    int node_freedoms;           /* BEAM_NODE_FREEDOMS to BEAM_NODE_MOST */
+    int slot[BEAM_NODE_MOST];    /* place of a freedom among those of a node, -1: there is none */
+    int freedom[BEAM_NODE_MOST]; /* freedom at a place (node_freedoms) */
+    int n_dof;                   /* free ones; a free root warping or root comes last */
+    double *k;                   /* stiffness (n_dof x n_dof) */
+    double *m;                   /* mass      (n_dof x n_dof) */
     double
         *inertia; /* inertial load of unit accelerations of the rigid beam (n_dof x BEAM_RIGID) */
     /* The same on the freedoms of the root node, clamped or not: what of the weight goes straight

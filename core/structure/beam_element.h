@@ -9,7 +9,8 @@
 enum { ELEMENT_ALL = BEAM_OUTER + BEAM_INNER };
 
 /* Internal freedoms: two modes of w, constant and linear part of gamma_xz, gamma_yz and of eta, the
- * twist without warping, and two modes of sigma, the surplus of the warping (warping.h). */
+ * twist without warping, and two modes of sigma, the surplus of the warping (warping.h), of
+ * lambda, tau and kappa of a flat section (camber.h). */
 enum beam_inner {
     IN_W_EVEN,
     IN_W_ODD,
@@ -20,8 +21,17 @@ enum beam_inner {
     IN_ETA_MEAN,
     IN_ETA_SLOPE,
     IN_SURPLUS_EVEN,
-    IN_SURPLUS_ODD
+    IN_SURPLUS_ODD,
+    IN_LAG_EVEN,
+    IN_LAG_ODD,
+    IN_TURN_EVEN,
+    IN_TURN_ODD,
+    IN_CAMBER_EVEN,
+    IN_CAMBER_ODD
 };
+
+/* Have the nodes of a beam of this section the freedom? */
+bool element_has(const struct section *s, enum shear_model shear, enum beam_freedom freedom);
 
 /* Rows at t in [0, 1] of an element of length h, all freedoms: node 1, node 2, inner. */
 struct element_rows {

@@ -8,6 +8,8 @@
 
 #include "core/structure/laminate.h"
 
+#include <stdbool.h>
+
 struct contour_element {
     int node[3];  /* first end, middle, second end: warping freedoms */
     double x[2];  /* chordwise position of the ends, towards the leading edge [m] */
@@ -20,11 +22,23 @@ struct contour_element {
  * asks for; it frees the edges of an open wall over a length of their thickness. */
 enum wall_shear { WALL_SHEAR_RIGID, WALL_SHEAR_FLEXIBLE };
 
+/* The one straight wall of a section that bends across with an amplitude of its own: the curvature
+ * kappa_ss in the mean over the wall (core/structure/camber.h). */
+struct camber_line {
+    bool on;          /* else the rest is not used */
+    double x, y;      /* middle of the wall [m] */
+    double width;     /* [m] */
+    double axis;      /* n that keeps its length across when the wall bends across [m] */
+    double stiffness; /* couple L_ss per kappa_ss, N_ss = 0, times the width [N m^2] */
+    double shear;     /* force N_sn per gamma_sn, times the width [N] */
+};
+
 struct contour {
     int n_node;
     enum wall_shear shear;
     int n_element;
     struct contour_element *element; /* (n_element) */
+    struct camber_line camber;
 };
 
 void contour_done(struct contour *c);

@@ -66,7 +66,7 @@ static enum status reduce(struct laminate *lam, enum chordwise_curvature chordwi
         }
     }
     enum status st = eliminate(k, E_SS);
-    if (st == ST_OK && chordwise == CHORDWISE_FREE) {
+    if (st == ST_OK && chordwise != CHORDWISE_RIGID) {
         st = eliminate(k, K_SS);
     }
     if (st != ST_OK) {
@@ -81,21 +81,22 @@ static enum status reduce(struct laminate *lam, enum chordwise_curvature chordwi
     return ST_OK;
 }
 
-/* Axial modulus of a ply with sigma_ss = 0 and gamma_sz = 0: the profile of the bending stress. */
-static double axial_modulus(const double q[9])
+/* Modulus of a ply along z (axis 0) or s (1), the stress across and gamma_sz zero: the profile of
+ * the bending stress. */
+static double axial_modulus(const double q[9], int axis)
 {
-    return q[0] - q[3] * q[3] / q[4];
+    return q[4 * axis] - q[3] * q[3] / q[4 - 4 * axis];
 }
 
-static double shear_modulus_zn(const struct ply *ply)
+static double shear_modulus_n(const struct ply *ply, int axis)
 {
-    const double c2 = num_sq(cos(ply->angle));
+    const double c2 = num_sq(axis == 0 ? cos(ply->angle) : sin(ply->angle));
     return ply->material.g_lt * c2 + ply->material.g_tt * (1.0 - c2);
 }
 
 /* Energetic shear stiffness: the shear stress that balances the bending stress of the ply stack,
  * tau(n) = f(n) N_zn with f = -1/D int E (n - n0) dn, gives 1/K = int f^2/G dn. */
-static double energetic_shear(int n_ply, const struct ply *ply)
+static double energetic_shear(int n_ply, const struct ply *ply, int axis)
 {
     static const double point[3] = {-0.774596669241483377, 0.0, 0.774596669241483377};
     static const double weight[3] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
@@ -107,7 +108,7 @@ static double energetic_shear(int n_ply, const struct ply *ply)
     for (int i = 0; i < n_ply; i++) {
         double q[9];
         ply_stiffness(&ply[i], q);
-        const double upper = lower + ply[i].thickness, e = axial_modulus(q);
+        const double upper = lower + ply[i].thickness, e = axial_modulus(q, axis);
         ea += e * (upper - lower);
         es += e * (upper * upper - lower * lower) / 2.0;
         ei += e * (upper * upper * upper - lower * lower * lower) / 3.0;
@@ -119,12 +120,12 @@ static double energetic_shear(int n_ply, const struct ply *ply)
     for (int i = 0; i < n_ply; i++) {
         double q[9];
         ply_stiffness(&ply[i], q);
-        const double e = axial_modulus(q), half = 0.5 * ply[i].thickness;
+        const double e = axial_modulus(q, axis), half = 0.5 * ply[i].thickness;
         for (int g = 0; g < 3; g++) {
             const double n = lower + half * (1.0 + point[g]);
             const double f =
                 -(moment + e * (n * n - lower * lower) / 2.0 - e * n0 * (n - lower)) / d;
-            compliance += weight[g] * half * f * f / shear_modulus_zn(&ply[i]);
+            compliance += weight[g] * half * f * f / shear_modulus_n(&ply[i], axis);
         }
         const double upper = lower + ply[i].thickness;
         moment += e * ((upper * upper - lower * lower) / 2.0 - n0 * (upper - lower));
@@ -219,7 +220,8 @@ enum status laminate_build_at(int n_ply, const struct ply *ply, double offset,
         add_ply(&lam, &ply[i], lower);
         lower += ply[i].thickness;
     }
-    lam.shear_zn = energetic_shear(n_ply, ply);
+    lam.shear_zn = energetic_shear(n_ply, ply, 0);
+    lam.shear_sn = energetic_shear(n_ply, ply, 1);
     const enum status st = reduce(&lam, chordwise);
     if (st == ST_OK) {
         *out = lam;

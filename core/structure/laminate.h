@@ -17,8 +17,11 @@ struct ply {
 };
 
 enum chordwise_curvature {
-    CHORDWISE_FREE, /* the stress couple L_ss vanishes: the wall may bend across (default) */
-    CHORDWISE_RIGID /* the curvature k_ss vanishes (the paper, A.23) */
+    CHORDWISE_FREE,  /* the stress couple L_ss vanishes: the wall may bend across (default) */
+    CHORDWISE_RIGID, /* the curvature k_ss vanishes (the paper, A.23) */
+    /* One straight wall only: free but for its mean over the wall, which is a field along the span
+     * that the clamp of the beam holds (core/structure/camber.h). */
+    CHORDWISE_CLAMPED
 };
 
 enum { WALL_STRAINS = 4 }; /* order: eps_zz, gamma_sz, kappa_zz, kappa_sz */
@@ -29,7 +32,7 @@ struct laminate {
     /* Full plane-stress stiffness, index 0 = z, 1 = s, 2 = sz (column-major, symmetric):
      * (A.21) with the exact integral through each ply. [N/m], [N], [N m], [N m^2], [N m^3] */
     double a[9], b[9], d[9], f[9], h[9];
-    /* Reduced stiffness after N_ss = 0 and (free) L_ss = 0 or (rigid) k_ss = 0, relating
+    /* Reduced stiffness after N_ss = 0 and (free, clamped) L_ss = 0 or (rigid) k_ss = 0, relating
      * (N_zz, N_sz, L_zz, L_sz) to (eps_zz, gamma_sz, kappa_zz, kappa_sz), where
      * eps_zz(n) = eps_zz + n kappa_zz and gamma_sz(n) = gamma_sz + n kappa_sz. Eq. (A.26). */
     double reduced[WALL_STRAINS * WALL_STRAINS];
@@ -38,6 +41,7 @@ struct laminate {
     /* Energetic transverse shear stiffness for N_zn (parabolic profile for one homogeneous ply:
      * 5/6 G h), N_sn condensed. [N/m] */
     double shear_zn;
+    double shear_sn; /* the same across: N_sn, N_zn condensed */
     /* Mass moments about n = 0: [kg/m^2], [kg/m], [kg]. */
     double m0, m1, m2;
 };

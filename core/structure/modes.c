@@ -9,8 +9,8 @@
 
 /* Family of each node freedom in the kinetic energy: a slope belongs to its displacement. */
 static const int family[BEAM_NODE_MOST] = {
-    [D_W] = 3,  [D_U] = 1,     [D_DU] = 1,     [D_V] = 0,
-    [D_DV] = 0, [D_THETA] = 2, [D_DTHETA] = 2, [D_SURPLUS] = 2};
+    [D_W] = 3,      [D_U] = 1,       [D_DU] = 1,  [D_V] = 0,    [D_DV] = 0,    [D_THETA] = 2,
+    [D_DTHETA] = 2, [D_SURPLUS] = 2, [D_LAG] = 1, [D_TURN] = 2, [D_CAMBER] = 0};
 
 /* Kinetic energy of each family alone; coupling terms between families are left out and the rest
  * scaled to one, so that a share is never negative. */

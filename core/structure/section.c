@@ -2,6 +2,7 @@
 
 #include "core/la.h"
 #include "core/num.h"
+#include "core/structure/camber.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -23,16 +24,21 @@ static void integrate_mass(const struct contour *c, const struct laminate *lam,
             const double weight = contour_gauss_weight[q] * p.jacobian;
             const struct warping_field f = warping_field_at(w, el, &p, WARPING_VLASOV);
             /* Displacement component a at n is mid[a] + n slope[a]. */
+            struct camber_motion flat = {{0}, {0}, {0}, {0}};
+            if (w->camber.on) {
+                camber_motion(&w->camber, &p, &flat);
+            }
             const double mid[3][U] = {
-                {[M_U] = 1.0, [M_THETA] = -p.y},
-                {[M_V] = 1.0, [M_THETA] = p.x},
+                {[M_U] = 1.0, [M_THETA] = -p.y, [M_TURN] = flat.turn[0], [M_CAMBER] = flat.bend[0]},
+                {[M_V] = 1.0, [M_THETA] = p.x, [M_TURN] = flat.turn[1], [M_CAMBER] = flat.bend[1]},
                 {[M_W] = 1.0, [M_DU] = -p.x, [M_DV] = -p.y, [M_DTHETA] = f.g, [M_SURPLUS] = f.g}};
-            const double slope[3][U] = {{[M_THETA] = p.dx},
-                                        {[M_THETA] = p.dy},
-                                        {[M_DU] = -p.dy,
-                                         [M_DV] = p.dx,
-                                         [M_DTHETA] = warping_across(w, el, &p),
-                                         [M_SURPLUS] = f.turn}};
+            const double slope[3][U] = {
+                {[M_THETA] = p.dx, [M_TURN] = flat.turn_slope[0], [M_CAMBER] = flat.bend_slope[0]},
+                {[M_THETA] = p.dy, [M_TURN] = flat.turn_slope[1], [M_CAMBER] = flat.bend_slope[1]},
+                {[M_DU] = -p.dy,
+                 [M_DV] = p.dx,
+                 [M_DTHETA] = warping_across(w, el, &p),
+                 [M_SURPLUS] = f.turn}};
             for (int a = 0; a < n; a++) {
                 for (int b = 0; b < n; b++) {
                     double sum = 0.0;
@@ -59,6 +65,22 @@ static void build_wide(const struct contour *c, const struct laminate *laminate,
     integrate_mass(c, laminate, w, SECTION_WIDE_MOTION, out->wide_mass);
 }
 
+/* Where a wall does not warp in its plane (no coupling), lambda has no energy: any will do. */
+static void build_flat(const struct contour *c, const struct laminate *laminate,
+                       const struct warping *w, struct section_flat *out)
+{
+    enum { WIDE = SECTION_WIDE_COUNT };
+    warping_stiffness(c, laminate, w, WIDE, out->stiffness);
+    if (w->lag[S_PSI] == 0.0) {
+        out->stiffness[num_at(S_LAG, S_LAG, WIDE)] = out->stiffness[num_at(S_PSI, S_PSI, WIDE)];
+    }
+    out->stiffness[num_at(S_SURPLUS, S_SURPLUS, WIDE)] +=
+        1e-6 * out->stiffness[num_at(S_THETA, S_THETA, WIDE)];
+    out->stiffness[num_at(S_TURN, S_TURN, WIDE)] = c->camber.shear;
+    camber_natural(c, laminate, w, WIDE, out->natural);
+    integrate_mass(c, laminate, w, SECTION_WIDE_MOTION, out->mass);
+}
+
 enum status section_build(const struct contour *c, const struct laminate *laminate,
                           struct section *out)
 {
@@ -76,6 +98,11 @@ enum status section_build(const struct contour *c, const struct laminate *lamina
     s.wide = c->shear == WALL_SHEAR_FLEXIBLE;
     if (s.wide) {
         build_wide(c, laminate, &retained, &s);
+    }
+    s.camber = c->camber;
+    if (s.camber.on) {
+        build_flat(c, laminate, &classic, &s.flat_classic);
+        build_flat(c, laminate, &retained, &s.flat_retained);
     }
     if (!num_all_finite(SECTION_CLASSIC * SECTION_CLASSIC, s.classic) ||
         !num_all_finite(N * N, s.stiffness)) {

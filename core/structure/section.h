@@ -16,7 +16,16 @@
 #include <stdbool.h>
 
 enum section_motion { M_U, M_V, M_W, M_DV, M_DU, M_THETA, M_DTHETA, SECTION_MOTION_COUNT };
-enum { M_SURPLUS = SECTION_MOTION_COUNT, SECTION_WIDE_MOTION };
+enum { M_SURPLUS = SECTION_MOTION_COUNT, M_TURN, M_CAMBER, SECTION_WIDE_MOTION };
+
+/* A flat section whose clamp holds its shape, for one set of section strains: stiffness of all
+ * strains as warping_wide_strains has them, and the mean curvature across that a free wall takes
+ * per unit of each (core/structure/camber.h). */
+struct section_flat {
+    double stiffness[SECTION_WIDE_COUNT * SECTION_WIDE_COUNT];
+    double natural[SECTION_WIDE_COUNT];
+    double mass[SECTION_WIDE_MOTION * SECTION_WIDE_MOTION];
+};
 
 struct section {
     double
@@ -26,10 +35,13 @@ struct section {
     /* The same with v', u' read as -phi, psi. */
     double mass_retained[SECTION_MOTION_COUNT * SECTION_MOTION_COUNT];
     /* Flexible walls and retained shears: the warping has amplitudes of its own. Stiffness of the
-     * strains SECTION_WIDE_COUNT, and mass with sigma last; else not used. */
+     * strains SECTION_WIDE_COUNT, and mass with sigma last but kappa; else not used. */
     bool wide;
     double wide_stiffness[SECTION_WIDE_COUNT * SECTION_WIDE_COUNT];
     double wide_mass[SECTION_WIDE_MOTION * SECTION_WIDE_MOTION];
+    /* CHORDWISE_CLAMPED; else not used. */
+    struct camber_line camber;
+    struct section_flat flat_classic, flat_retained;
     bool shear_unknown; /* rows of the shears in `stiffness` are NaN: core/structure/properties.h */
 };
 

@@ -1,6 +1,7 @@
 #include "core/structure/shape.h"
 
 #include "core/num.h"
+#include "core/structure/camber.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -194,6 +195,10 @@ enum status shape_build(const struct shape *s, struct contour *contour,
                   c.element + (ptrdiff_t)w * s->contour_elements);
     }
     c.n_node = next_node;
+    if (s->chordwise == CHORDWISE_CLAMPED) {
+        const struct contour_element *first = c.element, *last = &c.element[c.n_element - 1];
+        c.camber = camber_line_of(&laminate[0], first->x[0], first->y[0], last->x[1], last->y[1]);
+    }
     if (st != ST_OK) {
         contour_done(&c);
         return st;

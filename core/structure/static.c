@@ -2,6 +2,7 @@
 
 #include "core/la.h"
 #include "core/num.h"
+#include "core/structure/camber.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -46,13 +47,12 @@ bool static_tsai_wu(const struct material *m, const struct ply_stress *s, double
     return true;
 }
 
-/* Wall strains of the section strains at a point: with condensed shear the last two are not there.
- */
-static void combine(const double *unit, int n_strain, const double *strain, double e[WALL_STRAINS])
+/* Wall strains of the section strains at a point. */
+static void combine(const double *unit, const double *strain, double e[WALL_STRAINS])
 {
     for (int r = 0; r < WALL_STRAINS; r++) {
         e[r] = 0.0;
-        for (int k = 0; k < n_strain; k++) {
+        for (int k = 0; k < SECTION_WIDE_COUNT; k++) {
             e[r] += unit[r + WALL_STRAINS * k] * strain[k];
         }
     }
@@ -90,8 +90,8 @@ struct search {
     const struct contour *contour;
     const struct laminate *laminate;
     const struct warping *warping;
-    int n_strain;
     const double *strain;
+    double excess;           /* of the mean curvature across over that of a free wall [1/m] */
     int first[LIMIT_LAYUPS]; /* number of the first ply of each layup in out */
     double *worst;           /* severity kept so far, per state */
     struct ply_state *out;
@@ -105,8 +105,10 @@ static void search_point(const struct search *s, const struct contour_element *e
     const struct laminate *lam = &s->laminate[el->laminate];
     double unit[WALL_STRAINS * SECTION_WIDE_COUNT], normal[SECTION_WIDE_COUNT], e[WALL_STRAINS];
     warping_wide_strains(s->warping, el, &p, unit, normal);
-    combine(unit, s->n_strain, s->strain, e);
-    const struct laminate_cross cross = laminate_cross_strain(lam, s->shape->chordwise, e);
+    combine(unit, s->strain, e);
+    struct laminate_cross cross = laminate_cross_strain(lam, s->shape->chordwise, e);
+    cross.kappa_ss += s->excess;
+    cross.eps_ss -= s->contour->camber.axis * s->excess;
     double lower = lam->lower;
     for (int i = 0; i < l->n_ply; i++) {
         const int number = s->first[layup] + i;
@@ -128,6 +130,19 @@ static void search_point(const struct search *s, const struct contour_element *e
     }
 }
 
+static double excess_camber(const struct search *s)
+{
+    double natural[SECTION_WIDE_COUNT], sum = s->strain[S_CAMBER];
+    if (!s->contour->camber.on) {
+        return 0.0;
+    }
+    camber_natural(s->contour, s->laminate, s->warping, SECTION_WIDE_COUNT, natural);
+    for (int k = 0; k < SECTION_WIDE_COUNT; k++) {
+        sum -= natural[k] * s->strain[k];
+    }
+    return sum;
+}
+
 enum status static_ply_states(const struct shape *shape, enum shear_model shear,
                               const double strain[SECTION_WIDE_COUNT], struct ply_state *out,
                               int *n)
@@ -146,11 +161,10 @@ enum status static_ply_states(const struct shape *shape, enum shear_model shear,
                            .contour = &contour,
                            .laminate = laminate,
                            .warping = shear == SHEAR_RETAINED ? &retained : &classic,
-                           .n_strain = shear == SHEAR_RETAINED ? (int)SECTION_WIDE_COUNT
-                                                               : (int)SECTION_CLASSIC,
                            .strain = strain,
                            .worst = worst,
                            .out = out};
+        s.excess = excess_camber(&s);
         int count = 0;
         for (int l = 0; l < shape->n_layup; l++) {
             s.first[l] = count;

@@ -1,13 +1,14 @@
 #include "core/structure/warping.h"
 
 #include "core/num.h"
+#include "core/structure/camber.h"
 
 #include <assert.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { N = SECTION_STRAIN_COUNT, WIDE = SECTION_WIDE_COUNT };
+enum { N = SECTION_WARPED, WIDE = SECTION_WIDE_COUNT };
 
 const double contour_gauss_point[CONTOUR_GAUSS] = {-0.774596669241483377, 0.0,
                                                    0.774596669241483377};
@@ -144,48 +145,77 @@ void warping_strains(const struct warping *w, const struct contour_element *el,
 {
     const struct warping_basis b = warping_basis_at(w, el, p);
     const struct warping_field vlasov = field_of(w, &b, WARPING_VLASOV);
-    for (int k = 0; k < N; k++) {
+    double *rate = e + WALL_STRAINS * (ptrdiff_t)S_CAMBER_RATE;
+    memset(rate, 0, WALL_STRAINS * sizeof *rate);
+    for (int k = 0; k < (w->camber.on ? (int)N : (int)S_CAMBER_RATE); k++) {
         const struct warping_field f = field_of(w, &b, k);
-        warping_bare_strain(p, k, vlasov.g, across_of(w, p, vlasov.turn),
-                            e + WALL_STRAINS * (ptrdiff_t)k);
+        if (k == S_CAMBER_RATE) {
+            camber_rate_strain(&w->camber, p, rate);
+        } else {
+            warping_bare_strain(p, k, vlasov.g, across_of(w, p, vlasov.turn),
+                                e + WALL_STRAINS * (ptrdiff_t)k);
+        }
         e[W_GAMMA + WALL_STRAINS * k] += f.g_slope;
         e[W_TWIST + WALL_STRAINS * k] += f.turn_slope;
     }
+}
+
+/* Strains of an amplitude of the warping f by itself, and of its rate along the span. */
+static void put_amplitude(const struct warping_field *f, int value, int rate, double *e,
+                          double *normal)
+{
+    e[W_GAMMA + WALL_STRAINS * value] = f->g_slope;
+    e[W_TWIST + WALL_STRAINS * value] = f->turn_slope;
+    normal[value] = f->turn;
+    e[W_EPS + WALL_STRAINS * rate] = f->g;
+    e[W_KAPPA + WALL_STRAINS * rate] = f->turn;
+}
+
+/* Column k less `share` of column `amplitude`, which carries that part. */
+static void hand_on(int k, double share, int amplitude, double *e, double *normal)
+{
+    for (int r = 0; r < WALL_STRAINS; r++) {
+        e[r + WALL_STRAINS * k] -= share * e[r + WALL_STRAINS * amplitude];
+    }
+    normal[k] -= share * normal[amplitude];
 }
 
 void warping_wide_strains(const struct warping *w, const struct contour_element *el,
                           const struct contour_point *p, double *e, double *normal)
 {
     const struct warping_field f = warping_field_at(w, el, p, WARPING_VLASOV);
-    double *eta = e + WALL_STRAINS * (ptrdiff_t)S_ETA;
-    double *surplus = e + WALL_STRAINS * (ptrdiff_t)S_SURPLUS;
-    double *rate = e + WALL_STRAINS * (ptrdiff_t)S_SURPLUS_RATE;
     warping_strains(w, el, p, e);
     for (int k = 0; k < N; k++) {
         normal[k] = warping_normal_shear(w, el, p, k);
     }
-    memset(eta, 0, 3 * WALL_STRAINS * sizeof *eta);
+    memset(e + WALL_STRAINS * (ptrdiff_t)N, 0, (WIDE - N) * WALL_STRAINS * sizeof *e);
+    memset(normal + N, 0, (WIDE - N) * sizeof *normal);
     /* The wall turns as a whole: gamma_sz = r_n + n, gamma_nz = -r_t. */
-    eta[W_GAMMA] = p->r_n;
-    eta[W_TWIST] = 1.0;
+    e[W_GAMMA + WALL_STRAINS * S_ETA] = p->r_n;
+    e[W_TWIST + WALL_STRAINS * S_ETA] = 1.0;
     normal[S_ETA] = -p->r_t;
-    surplus[W_GAMMA] = f.g_slope;
-    surplus[W_TWIST] = f.turn_slope;
-    normal[S_SURPLUS] = f.turn;
-    rate[W_EPS] = f.g;
-    rate[W_KAPPA] = f.turn;
-    normal[S_SURPLUS_RATE] = 0.0;
+    put_amplitude(&f, S_SURPLUS, S_SURPLUS_RATE, e, normal);
     for (int k = S_W; k <= S_PHI; k++) {
-        for (int r = 0; r < WALL_STRAINS; r++) {
-            e[r + WALL_STRAINS * k] -= w->follow[k] * surplus[r];
+        hand_on(k, w->follow[k], S_SURPLUS, e, normal);
+    }
+    if (w->camber.on) {
+        camber_turn_rate_strain(&w->camber, e + WALL_STRAINS * (ptrdiff_t)S_TURN_RATE);
+    }
+    if (w->lag[S_PSI] != 0.0) {
+        struct warping_field lag = warping_field_at(w, el, p, S_PSI);
+        lag.g -= w->follow[S_PSI] * f.g;
+        lag.g_slope -= w->follow[S_PSI] * f.g_slope;
+        lag.turn -= w->follow[S_PSI] * f.turn;
+        lag.turn_slope -= w->follow[S_PSI] * f.turn_slope;
+        put_amplitude(&lag, S_LAG, S_LAG_RATE, e, normal);
+        for (int k = 0; k < SECTION_STRAIN_COUNT; k++) {
+            hand_on(k, w->lag[k], S_LAG, e, normal);
         }
-        normal[k] -= w->follow[k] * normal[S_SURPLUS];
     }
 }
 
-/* Wall strains and gamma_nz of the first n_strain strains. */
-static void unit_strains(const struct warping *w, const struct contour_element *el,
-                         const struct contour_point *p, int n_strain, double *e, double *normal)
+void warping_unit_strains(const struct warping *w, const struct contour_element *el,
+                          const struct contour_point *p, int n_strain, double *e, double *normal)
 {
     if (n_strain > N) {
         warping_wide_strains(w, el, p, e, normal);
@@ -211,7 +241,7 @@ void warping_stiffness(const struct contour *c, const struct laminate *laminate,
         const struct contour_point p = contour_at(el, contour_gauss_point[i % CONTOUR_GAUSS]);
         const double weight = contour_gauss_weight[i % CONTOUR_GAUSS] * p.jacobian;
         double e[WALL_STRAINS * WIDE], stress[WALL_STRAINS * WIDE], normal[WIDE];
-        unit_strains(w, el, &p, n_strain, e, normal);
+        warping_unit_strains(w, el, &p, n_strain, e, normal);
         for (int k = 0; k < n_strain; k++) {
             for (int r = 0; r < WALL_STRAINS; r++) {
                 stress[num_at(r, k, WALL_STRAINS)] =

@@ -16,14 +16,32 @@ enum section_strain { S_W, S_PSI, S_PHI, S_THETA, S_THETA2, S_GXZ, S_GYZ, SECTIO
 enum { SECTION_CLASSIC = S_THETA2 + 1 };
 enum wall_strain { W_EPS, W_GAMMA, W_KAPPA, W_TWIST }; /* order of laminate.reduced */
 
-/* Strains of a beam with flexible walls and retained shears beyond those of its section. The
- * warping has amplitudes of its own along the span, which a clamp holds: chi, which stands in the
- * place of theta' in the section strains, and chi + sigma. The section twists by theta' = chi +
- * eta, and where its walls' normals turn freely sigma is what bending asks for, warping.follow. */
-enum { S_ETA = SECTION_STRAIN_COUNT, S_SURPLUS, S_SURPLUS_RATE, SECTION_WIDE_COUNT };
+/* Strains of a beam beyond those of its section.
+ *
+ * With flexible walls and retained shears the warping has amplitudes of its own along the span,
+ * which a clamp holds: chi, which stands in the place of theta' in the section strains, and chi +
+ * sigma. The section twists by theta' = chi + eta, and where its walls' normals turn freely sigma
+ * is what bending asks for, warping.follow.
+ *
+ * A flat section whose clamp holds its shape (core/structure/camber.h) has more: kappa, its
+ * curvature across; tau, the turn of its normals across; lambda, the amplitude of the warping that
+ * psi' asks for in its plane. */
+enum {
+    S_CAMBER_RATE = SECTION_STRAIN_COUNT,
+    S_ETA,
+    S_SURPLUS,
+    S_SURPLUS_RATE,
+    S_LAG,
+    S_LAG_RATE,
+    S_TURN_RATE,
+    S_TURN,
+    S_CAMBER,
+    SECTION_WIDE_COUNT
+};
+enum { SECTION_WARPED = S_CAMBER_RATE + 1 }; /* strains that warp the walls */
 
 /* Column of the warping that theta'' stretches. */
-enum { WARPING_VLASOV = SECTION_STRAIN_COUNT, WARPING_COLUMNS };
+enum { WARPING_VLASOV = SECTION_WARPED, WARPING_COLUMNS };
 
 struct warping {
     int n_node;
@@ -40,9 +58,13 @@ struct warping {
     /* Flexible walls, retained set: part of the warping of w', psi', phi' that has the form of the
      * warping theta'' stretches, as its amplitude per unit of each [1/m per strain]. */
     double follow[3];
+    /* Flat section: part of the warping of each strain that has the form of what is left of that of
+     * psi' then. */
+    double lag[SECTION_STRAIN_COUNT];
     /* Energy of the transverse shear gamma_nz of the walls per unit of each pair of strains, as far
      * as it is not in warping_normal_shear; zero in the classic set. */
-    double wall_shear[SECTION_STRAIN_COUNT * SECTION_STRAIN_COUNT];
+    double wall_shear[SECTION_WARPED * SECTION_WARPED];
+    struct camber_line camber; /* of the contour */
 };
 
 /* Both sets from one factorisation. ST_SINGULAR when a wall has no shear stiffness or the walls do
@@ -83,16 +105,21 @@ double warping_across(const struct warping *w, const struct contour_element *el,
 double warping_normal_shear(const struct warping *w, const struct contour_element *el,
                             const struct contour_point *p, int k);
 
-/* Wall strains at a point of an element per unit of every beam strain:
- * e (WALL_STRAINS x SECTION_STRAIN_COUNT), column-major. Eqs. (A.5)-(A.12). */
+/* Wall strains at a point of an element per unit of every beam strain that warps the walls:
+ * e (WALL_STRAINS x SECTION_WARPED), column-major; that of S_CAMBER_RATE is zero where the
+ * curvature across is no amplitude. Eqs. (A.5)-(A.12). */
 void warping_strains(const struct warping *w, const struct contour_element *el,
                      const struct contour_point *p, double *e);
 
-/* The same per unit of every strain of a beam with flexible walls (WALL_STRAINS x
- * SECTION_WIDE_COUNT), with gamma_nz (SECTION_WIDE_COUNT). The columns of w', psi', phi' are
- * without their part of the warping that sigma carries. */
+/* The same per unit of every strain of a beam (WALL_STRAINS x SECTION_WIDE_COUNT), with gamma_nz
+ * (SECTION_WIDE_COUNT). The columns of w', psi', phi' are without their part of the warping that
+ * sigma and lambda carry. */
 void warping_wide_strains(const struct warping *w, const struct contour_element *el,
                           const struct contour_point *p, double *e, double *normal);
+
+/* Either of them, by the number of strains: wall strains and gamma_nz of the first n_strain. */
+void warping_unit_strains(const struct warping *w, const struct contour_element *el,
+                          const struct contour_point *p, int n_strain, double *e, double *normal);
 
 /* What the minimisation itself starts from: the wall strains of unit strain k without the warping's
  * own slope, and gamma_nz of the section's shears alone, Eq. (A.7).

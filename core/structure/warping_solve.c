@@ -1,6 +1,7 @@
 /* The minimisation behind core/structure/warping.h. */
 #include "core/la.h"
 #include "core/num.h"
+#include "core/structure/camber.h"
 #include "core/structure/warping.h"
 
 #include <assert.h>
@@ -8,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { N = SECTION_STRAIN_COUNT, CONSTRAINTS = 3 };
+enum { N = SECTION_WARPED, CONSTRAINTS = 3 };
 
 /* The system K z = f with g of node 0 held: K is singular for g = const and regular otherwise. The
  * values z are those of struct warping. */
@@ -75,7 +76,11 @@ static void add_load(const struct contour *c, const struct laminate *lam, const 
             stretched = warping_at(w, el, &p, WARPING_VLASOV);
             across = warping_across(w, el, &p);
         }
-        warping_bare_strain(&p, k, stretched, across, e);
+        if (k == S_CAMBER_RATE) {
+            camber_rate_strain(&w->camber, &p, e);
+        } else {
+            warping_bare_strain(&p, k, stretched, across, e);
+        }
         const double flow = warping_flow(l->reduced, W_GAMMA, e);
         const double twist = warping_flow(l->reduced, W_TWIST, e);
         const double normal = l->shear_zn * warping_bare_normal_shear(&p, k);
@@ -230,12 +235,18 @@ static enum status constrain(const struct system *s, const struct couples *coupl
     return st;
 }
 
+/* Strains whose warping is asked for. */
+static int warped(const struct warping *w)
+{
+    return w->camber.on ? (int)N : (int)S_CAMBER_RATE;
+}
+
 static void solve_classic(const struct contour *c, const struct laminate *lam,
                           const struct system *s, struct warping *w, struct couples *couples)
 {
     const int n = w->n_value;
     double *flow = s->constraint; /* scratch until the retained set is solved */
-    for (int k = 0; k < N; k++) {
+    for (int k = 0; k < warped(w); k++) {
         if (k != S_THETA2) {
             add_load(c, lam, w, k, w->g + num_at(0, k, n));
             solve_held(s, w->g + num_at(0, k, n));
@@ -244,7 +255,7 @@ static void solve_classic(const struct contour *c, const struct laminate *lam,
     memset(flow, 0, (size_t)n * sizeof *flow);
     axial_flow(c, lam, w, S_W, flow);
     integrate_couples(c, lam, w, couples);
-    for (int k = 0; k < N; k++) {
+    for (int k = 0; k < warped(w); k++) {
         if (k != S_THETA2) {
             remove_mean(w->n_node, n, flow, k == S_THETA ? couples->warping[0] : 0.0,
                         w->g + num_at(0, k, n));
@@ -307,6 +318,23 @@ static void find_follow(const struct contour *c, const struct laminate *lam, dou
     }
 }
 
+/* The same for what is left of the warping of psi'; chi is an amplitude by itself. None where plies
+ * do not couple and the wall keeps plane in its plane. */
+static void find_lag(const struct contour *c, const struct laminate *lam, struct warping *w)
+{
+    static const int strain[] = {S_W, S_PSI, S_PHI, S_THETA2};
+    const double share = w->follow[S_PSI];
+    const double own = warping_energy(c, lam, w, S_PSI, S_PSI) -
+                       share * warping_energy(c, lam, w, WARPING_VLASOV, S_PSI);
+    double k[4];
+    warping_stiffness(c, lam, w, 2, k);
+    for (size_t i = 0; i < sizeof strain / sizeof strain[0] && own > 1e-6 * k[3]; i++) {
+        const double with = warping_energy(c, lam, w, S_PSI, strain[i]) -
+                            share * warping_energy(c, lam, w, WARPING_VLASOV, strain[i]);
+        w->lag[strain[i]] = with / own;
+    }
+}
+
 /* Twist without shear force brings shear strains along, as it is about the shear centre, and their
  * warping with it. Both are held where the warping is held, so theta'' stretches the sum: the
  * warping of theta' alone would be that of a twist about the origin. */
@@ -314,14 +342,15 @@ static enum status find_vlasov(const struct contour *c, const struct laminate *l
                                struct warping *w)
 {
     static const int shear[2] = {S_GXZ, S_GYZ};
+    enum { ALL = SECTION_STRAIN_COUNT };
     const int n = w->n_value;
-    double k[N * N], a[4], b[2];
-    warping_stiffness(c, lam, w, N, k);
+    double k[ALL * ALL], a[4], b[2];
+    warping_stiffness(c, lam, w, ALL, k);
     for (int i = 0; i < 2; i++) {
         for (int j = 0; j < 2; j++) {
-            a[i + 2 * j] = k[num_at(shear[i], shear[j], N)];
+            a[i + 2 * j] = k[num_at(shear[i], shear[j], ALL)];
         }
-        b[i] = -k[num_at(shear[i], S_THETA, N)];
+        b[i] = -k[num_at(shear[i], S_THETA, ALL)];
     }
     const enum status st = la_solve_symmetric(2, a, 1, b);
     if (st != ST_OK) {
@@ -334,7 +363,7 @@ static enum status find_vlasov(const struct contour *c, const struct laminate *l
                                              b[1] * w->g[num_at(q, S_GYZ, n)];
     }
     if (c->shear == WALL_SHEAR_FLEXIBLE) {
-        find_follow(c, lam, k[num_at(S_THETA, S_THETA, N)], w);
+        find_follow(c, lam, k[num_at(S_THETA, S_THETA, ALL)], w);
     }
     return ST_OK;
 }
@@ -353,7 +382,7 @@ static enum status solve_retained(const struct contour *c, const struct laminate
         solve_held(s, response);
     }
     enum status st = ST_OK;
-    for (int k = 0; k < N && st == ST_OK; k++) {
+    for (int k = 0; k < warped(w) && st == ST_OK; k++) {
         double *g = w->g + num_at(0, k, n);
         if (k != S_THETA2) { /* without the constraints it is the classic warping */
             memcpy(g, classic->g + num_at(0, k, n), (size_t)n * sizeof *g);
@@ -389,14 +418,15 @@ static enum status system_init(const struct contour *c, struct system *out)
     return ST_OK;
 }
 
-static enum status warping_init(const struct system *s, struct warping *out)
+static enum status warping_init(const struct contour *c, const struct system *s,
+                                struct warping *out)
 {
     const int n_value = s->n + 1;
     double *g = calloc((size_t)n_value * WARPING_COLUMNS, sizeof *g);
     if (g == NULL) {
         return ST_NO_MEMORY;
     }
-    *out = (struct warping){.n_node = s->n_node, .n_value = n_value, .g = g};
+    *out = (struct warping){.n_node = s->n_node, .n_value = n_value, .g = g, .camber = c->camber};
     return ST_OK;
 }
 
@@ -408,10 +438,10 @@ enum status warping_solve(const struct contour *c, const struct laminate *lamina
     struct system s = {0};
     enum status st = system_init(c, &s);
     if (st == ST_OK) {
-        st = warping_init(&s, &a);
+        st = warping_init(c, &s, &a);
     }
     if (st == ST_OK) {
-        st = warping_init(&s, &b);
+        st = warping_init(c, &s, &b);
     }
     if (st == ST_OK) {
         st = factor(c, laminate, &a, &s);
@@ -420,6 +450,10 @@ enum status warping_solve(const struct contour *c, const struct laminate *lamina
         struct couples couples;
         solve_classic(c, laminate, &s, &a, &couples);
         st = solve_retained(c, laminate, &a, &couples, &s, &b);
+    }
+    if (st == ST_OK && c->camber.on) {
+        find_lag(c, laminate, &a);
+        find_lag(c, laminate, &b);
     }
     free(s.factor);
     if (st != ST_OK) {

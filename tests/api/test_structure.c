@@ -11,6 +11,8 @@
 #define SOFT                                                                                       \
     "{\"type\":\"strip\",\"chord_m\":0.1,\"shear\":\"retained\",\"wall_shear\":\"flexible\","      \
     "\"layup\":[" PLY "]}"
+#define HELD                                                                                       \
+    "{\"type\":\"strip\",\"chord_m\":0.1,\"chordwise_curvature\":\"clamped\",\"layup\":[" PLY "]}"
 #define BOX_OF(layup_) "{\"type\":\"box\",\"width_m\":0.1,\"height_m\":0.05," layup_ "}"
 #define BOX BOX_OF("\"layup\":[" PLY "]")
 #define WALLS                                                                                      \
@@ -334,6 +336,12 @@ static const struct bad bad_cases[] = {
     {MODES_CASE("\"stations\":[" STATION(0, SOFT) "," STATION(0.5, SOFT) "," STATION(
          0.5, STRIP) "," STATION(1, STRIP) "]"),
      "/beam/stations/2/section/wall_shear", "walls_differ"},
+    {SECTION_CASE("{\"type\":\"box\",\"width_m\":0.1,\"height_m\":0.05,\"layup\":[" PLY
+                  "],\"chordwise_curvature\":\"clamped\"}"),
+     "/beam/section/chordwise_curvature", "not_flat"},
+    {MODES_CASE("\"stations\":[" STATION(0, HELD) "," STATION(0.5, HELD) "," STATION(
+         0.5, STRIP) "," STATION(1, STRIP) "]"),
+     "/beam/stations/2/section/chordwise_curvature", "chordwise_differs"},
     {MODES_CASE("\"stations\":[" STATION(0, STRIP) ",{\"z_m\":1,\"section\":{\"type\":\"strip\","
                                                    "\"chord_m\":0,\"layup\":[" PLY "]}}]"),
      "/beam/stations/1/section/chord_m", "out_of_range"},

@@ -24,7 +24,9 @@ static void strains_are_derivatives_of_motions(void **state)
                 {S_PSI, M_DU, 1.0},
                 {S_PHI, M_DV, -1.0},
                 {S_THETA2, M_DTHETA, 1.0},
-                {S_SURPLUS_RATE, M_SURPLUS, 1.0}};
+                {S_SURPLUS_RATE, M_SURPLUS, 1.0},
+                {S_TURN_RATE, M_TURN, 1.0},
+                {S_CAMBER_RATE, M_CAMBER, 1.0}};
     const double step = 1e-5;
     for (double t = 0.1; t < 1.0; t += 0.2) {
         struct element_rows at, before, after;
@@ -72,13 +74,26 @@ static void slope_is_rotation_and_shear(void **state)
 static void ends_are_the_nodes(void **state)
 {
     (void)state;
-    static const int motion_of[NODE] = {M_W, M_U, M_DU, M_V, M_DV, M_THETA, M_DTHETA, M_SURPLUS};
+    enum { NONE = -1 };
+    static const int motion_of[NODE] = {M_W,
+                                        M_U,
+                                        M_DU,
+                                        M_V,
+                                        M_DV,
+                                        M_THETA,
+                                        M_DTHETA,
+                                        M_SURPLUS,
+                                        [D_LAG] = NONE,
+                                        [D_TURN] = M_TURN,
+                                        [D_CAMBER] = M_CAMBER};
     for (int end = 0; end < 2; end++) {
         struct element_rows at;
         element_rows(end, h, &at);
         for (int f = 0; f < NODE; f++) {
             for (int i = 0; i < ELEMENT_ALL; i++) {
-                const double value = at.motion[motion_of[f] + SECTION_WIDE_MOTION * i];
+                const double value = motion_of[f] == NONE
+                                         ? at.strain[S_LAG + N * i]
+                                         : at.motion[motion_of[f] + SECTION_WIDE_MOTION * i];
                 assert_near_abs(value, i == NODE * end + f ? 1.0 : 0.0, 1e-14);
             }
         }

@@ -127,6 +127,34 @@ static void the_worst_point_of_a_bent_strip_is_its_face(void **state)
     assert_near_abs(ply_state[0].n, 0.002, 1e-12); /* phi' = -v'' > 0 pulls the upper one */
 }
 
+/* Bent where the curvature across is held at zero it is a plate in cylindrical bending, where it
+ * has its natural one, -nu of that along, a free strip. */
+static void a_held_strip_is_a_plate(void **state)
+{
+    (void)state;
+    const double nu = 0.3, face = 0.002 * 0.5;
+    const struct material m = fixture_isotropic(70e9, nu, 2700.0);
+    const struct ply ply = draw_ply(&m, 0.004);
+    draw_contour(&shape, 8);
+    shape.type = SECTION_STRIP;
+    shape.width = 0.05;
+    shape.chordwise = CHORDWISE_CLAMPED;
+    (void)draw_layup(&shape, 1, &ply);
+    for (int held = 0; held < 2; held++) {
+        /* The wall runs towards -x: kappa_zz = phi', kappa_ss = -nu phi'. */
+        const double strain[SECTION_WIDE_COUNT] = {
+            [S_PHI] = 0.5, [S_CAMBER] = held ? 0.0 : -nu * 0.5};
+        int n = 0;
+        assert_ok(static_ply_states(&shape, SHEAR_CONDENSED, strain, ply_state, &n));
+        const double along = fabs(ply_state[0].strain_l), across = fabs(ply_state[0].strain_t);
+        assert_near_rel(along, face, 1e-9);
+        assert_near_abs(across, held ? 0.0 : nu * face, 1e-9 * face);
+        assert_near_rel(fabs(ply_state[0].stress.l),
+                        held ? 70e9 * face / (1.0 - nu * nu) : 70e9 * face, 1e-9);
+    }
+    shape.chordwise = CHORDWISE_FREE;
+}
+
 static int setup(void **state)
 {
     (void)state;
@@ -143,6 +171,7 @@ int main(void)
         cmocka_unit_test(no_stress_has_no_limit),
         cmocka_unit_test(pulled_plies_share_the_strain),
         cmocka_unit_test(the_worst_point_of_a_bent_strip_is_its_face),
+        cmocka_unit_test(a_held_strip_is_a_plate),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

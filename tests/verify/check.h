@@ -22,7 +22,7 @@ struct check {
     const char *source; /* where the reference comes from */
 };
 
-enum { CHECK_MAX = 320 };
+enum { CHECK_MAX = 512 };
 
 struct check_list {
     int n;
@@ -59,6 +59,7 @@ struct check_group {
     X(convergence)                                                                                 \
     X(properties)                                                                                  \
     X(reference_3d)                                                                                \
+    X(flat)                                                                                        \
     X(lifting_line)                                                                                \
     X(stalled_line)                                                                                \
     X(unsteady)                                                                                    \
