@@ -152,40 +152,18 @@ static enum status fill_modes(const struct free_section_def *d, struct model *m)
     return st;
 }
 
-static enum status build_aero(struct model *m)
-{
-    const struct aero_def *a = &m->def.aero;
-    const bool wake_lags = a->dynamic == DYNAMIC_ATTACHED || a->dynamic == DYNAMIC_STALL;
-    enum status st = polar_create(a->polar, &m->polar);
-    if (st == ST_OK && a->dynamic == DYNAMIC_NETWORK) {
-        st = network_create(a->network, &m->network);
-    }
-    if (st == ST_OK && wake_lags) {
-        st = attached_init(1, m->chord, speed, m->def.solver.time_step, &m->attached);
-    }
-    if (st == ST_OK && a->dynamic == DYNAMIC_STALL) {
-        st = dynamic_stall_init(1, m->chord, speed, m->def.solver.time_step, m->polar,
-                                &a->polar->stall, &m->stall);
-    }
-    return st == ST_OK && wake_lags ? apparent_mass_apply(m) : st;
-}
-
 enum status free_section_model(const struct free_section_def *def, struct model *out)
 {
     assert(def->polar != NULL);
     assert(def->dynamic != DYNAMIC_NETWORK || def->network != NULL);
-    struct model m = {.n_mode = FREEDOMS,
-                      .n_station = 1,
-                      .station_length = 1.0,
-                      .area = chord,
-                      .dynamic_pressure = 0.5 * density * num_sq(speed)};
+    struct model m = {.n_mode = FREEDOMS, .n_station = 1, .station_length = 1.0, .area = chord};
     fill_case(def, &m.def);
     enum status st = allocate(&m);
     if (st == ST_OK) {
         st = fill_modes(def, &m);
     }
     if (st == ST_OK) {
-        st = build_aero(&m);
+        st = model_build_aero(&m);
     }
     if (st != ST_OK) {
         model_done(&m);

@@ -271,7 +271,7 @@ static enum status build_transfer(struct model *m)
     return ST_OK;
 }
 
-static enum status build_aero(struct model *m)
+enum status model_build_aero(struct model *m)
 {
     const struct aero_def *a = &m->def.aero;
     const struct beam_def *b = &m->def.beam;
@@ -348,7 +348,7 @@ enum status model_build_like(const struct case_def *def, const struct model *lik
     if (st == ST_OK && case_def_flows(def)) {
         part = "aerodynamic model";
         pointer = "/aerodynamics";
-        st = build_aero(&m);
+        st = model_build_aero(&m);
     }
     if (st == ST_OK && def->kind == CASE_SIMULATION) {
         part = "gust and motion of the root";

@@ -70,6 +70,10 @@ MUST_CHECK enum status model_build_like(const struct case_def *def, const struct
                                         struct model *out, struct failure *fail);
 void model_done(struct model *m);
 
+/* The aerodynamics of a model whose case, modes and stations are complete: what model_build does
+ * last, for models that come from no beam (core/analysis/free_section.h). */
+MUST_CHECK enum status model_build_aero(struct model *m);
+
 /* Builds each section of a case that case_def_check found in order, with a coarse mesh, and appends
  * those that cannot carry load: what is wrong with them only shows there. ST_NO_MEMORY or ST_OK. */
 MUST_CHECK enum status model_try_sections(const struct beam_def *b, struct failure_list *out);

@@ -2,8 +2,8 @@
  * mid-chord driven through the evaluation of loads of the time march. */
 #include "core/coupling/loads.h"
 #include "core/num.h"
+#include "tests/support/driven_section.h"
 #include "tests/support/fixture.h"
-#include "tests/support/typical_section.h"
 #include "tests/verify/check.h"
 
 #include <complex.h>
@@ -54,7 +54,7 @@ static struct response driven(int freedom, double k)
     struct polar_def polar = fixture_linear_polar(2.0 * NUM_PI, 0.5 * NUM_PI, 0.0, 1.0);
     struct model m;
     struct workspace w;
-    typical_section_driven(2.0, 1.0, &polar, DYNAMIC_ATTACHED, 1.0, dt, &m);
+    driven_section_model(2.0, 1.0, &polar, DYNAMIC_ATTACHED, 1.0, dt, &m);
     if (workspace_init(&m, &w) != ST_OK) {
         abort();
     }
