@@ -15,42 +15,29 @@ enum simd_level simd_level_of_machine(void)
     return SIMD_PORTABLE;
 }
 
-/* One block of rows at a time; even and odd columns are summed apart, which halves the chain of
- * dependent additions. */
-static inline __attribute__((always_inline)) void gemv_body(int rows, int n, const double *a,
-                                                            const double *x, double *y)
-{
-    for (int row = 0; row < rows; row += LANES) {
-        lanes even = {0}, odd = {0};
-        const double *column = a + row;
-        int j = 0;
-        for (; j + 1 < n; j += 2) {
-            even += *(const lanes *)(const void *)column * x[j];
-            odd += *(const lanes *)(const void *)(column + rows) * x[j + 1];
-            column += 2 * (ptrdiff_t)rows;
-        }
-        if (j < n) {
-            even += *(const lanes *)(const void *)column * x[j];
-        }
-        *(lanes *)(void *)(y + row) = even + odd;
-    }
-}
+#define KERNEL_NAME gemv_portable
+#define KERNEL_WIDTH SIMD_WIDTH_PORTABLE
+#define KERNEL_TARGET
+#include "core/simd_gemv.inc"
+#undef KERNEL_NAME
+#undef KERNEL_WIDTH
+#undef KERNEL_TARGET
 
-static void gemv_portable(int rows, int n, const double *a, const double *x, double *y)
-{
-    gemv_body(rows, n, a, x, y);
-}
+#define KERNEL_NAME gemv_avx2
+#define KERNEL_WIDTH SIMD_WIDTH_AVX2
+#define KERNEL_TARGET SIMD_TARGET_AVX2
+#include "core/simd_gemv.inc"
+#undef KERNEL_NAME
+#undef KERNEL_WIDTH
+#undef KERNEL_TARGET
 
-SIMD_TARGET_AVX2 static void gemv_avx2(int rows, int n, const double *a, const double *x, double *y)
-{
-    gemv_body(rows, n, a, x, y);
-}
-
-SIMD_TARGET_AVX512 static void gemv_avx512(int rows, int n, const double *a, const double *x,
-                                           double *y)
-{
-    gemv_body(rows, n, a, x, y);
-}
+#define KERNEL_NAME gemv_avx512
+#define KERNEL_WIDTH SIMD_WIDTH_AVX512
+#define KERNEL_TARGET SIMD_TARGET_AVX512
+#include "core/simd_gemv.inc"
+#undef KERNEL_NAME
+#undef KERNEL_WIDTH
+#undef KERNEL_TARGET
 
 simd_gemv_fn simd_gemv(enum simd_level level)
 {

@@ -2,8 +2,8 @@
  * Eight doubles at a time: the vector type of gcc and clang, the instruction sets a kernel is
  * compiled for, and the one matrix-vector product the time loop needs.
  *
- * A kernel is one always-inline body compiled once per level; nothing is contracted, so every level
- * gives the same bits. Stateless; thread-safe. */
+ * A kernel is one body compiled once per level; nothing is contracted, so every level gives the
+ * same bits. Stateless; thread-safe. */
 #ifndef AEROM_CORE_SIMD_H
 #define AEROM_CORE_SIMD_H
 
@@ -23,6 +23,16 @@ typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 enum simd_level { SIMD_PORTABLE, SIMD_AVX2, SIMD_AVX512, SIMD_LEVELS };
 /* Best level of this machine. */
 enum simd_level simd_level_of_machine(void);
+
+/* Names in a template that is included once per instruction set (.inc): each inclusion defines
+ *   KERNEL_NAME    of its function; SIMD_KERNEL(x) names the parts
+ *   KERNEL_TARGET  attribute that selects the instruction set
+ *   KERNEL_WIDTH   doubles of its vectors: what one register holds, since wider vectors are carried
+ *                  through memory from one turn of a loop to the next */
+#define SIMD_PASTE(name, kernel) name##_##kernel
+#define SIMD_JOIN(name, kernel) SIMD_PASTE(name, kernel)
+#define SIMD_KERNEL(name) SIMD_JOIN(name, KERNEL_NAME)
+enum { SIMD_WIDTH_PORTABLE = 2, SIMD_WIDTH_AVX2 = 4, SIMD_WIDTH_AVX512 = 8 };
 
 /* Rows padded to whole lanes. */
 static inline int simd_padded(int n)

@@ -1,5 +1,6 @@
 #include "core/aero/lifting_line.h"
 
+#include "core/aero/lifting_line_kernel.h"
 #include "core/la.h"
 #include "core/num.h"
 
@@ -45,7 +46,8 @@ enum status lifting_line_init(const struct wing *wing, double tolerance, int ite
                               .tolerance = tolerance,
                               .iterations_max = iterations_max,
                               .rows = simd_padded(wing->n),
-                              .multiply = simd_gemv(simd_level_of_machine())};
+                              .multiply = simd_gemv(simd_level_of_machine()),
+                              .evaluate = lifting_line_kernel(simd_level_of_machine())};
     const size_t rows = (size_t)ll.rows, matrix = rows * (size_t)ll.n;
     ll.block = aligned_zeros(2 * matrix + rows);
     if (ll.block == NULL) {
@@ -68,7 +70,7 @@ void lifting_line_done(struct lifting_line *ll)
 
 enum status lifting_line_state_init(int n, struct lifting_line_state *out)
 {
-    enum { VECTORS = 11 };
+    enum { VECTORS = 19 };
     const size_t rows = (size_t)simd_padded(n), dense = (size_t)n * (size_t)n;
     const size_t total = (VECTORS + (size_t)n) * rows + 2 * dense;
     struct lifting_line_state s = {.n = n};
@@ -79,15 +81,20 @@ enum status lifting_line_state_init(int n, struct lifting_line_state *out)
         free(s.pivot);
         return ST_NO_MEMORY;
     }
-    double **const array[VECTORS] = {&s.cl,       &s.alpha,    &s.induced, &s.rough,
-                                     &s.previous, &s.older,    &s.trial,   &s.table,
-                                     &s.slope,    &s.residual, &s.step};
+    double **const array[VECTORS] = {
+        &s.cl,     &s.alpha,   &s.induced,  &s.rough,   &s.previous, &s.older,      &s.trial,
+        &s.table,  &s.slope,   &s.residual, &s.step,    &s.alpha_g,  &s.piece_from, &s.piece_to,
+        &s.origin, &s.lift[0], &s.lift[1],  &s.lift[2], &s.lift[3]};
     for (int i = 0; i < VECTORS; i++) {
         *array[i] = s.block + (size_t)i * rows;
     }
     s.inverse = s.block + VECTORS * rows;
     s.dense = s.inverse + rows * (size_t)n;
     s.work = s.dense + dense;
+    for (size_t i = (size_t)n; i < rows; i++) { /* the idle lanes are always on their piece */
+        s.piece_from[i] = -HUGE_VAL;
+        s.piece_to[i] = HUGE_VAL;
+    }
     *out = s;
     return ST_OK;
 }
@@ -99,17 +106,6 @@ void lifting_line_state_done(struct lifting_line_state *s)
     *s = (struct lifting_line_state){0};
 }
 
-static double largest_of(int n, const double *x)
-{
-    double largest = 0.0;
-    for (int i = 0; i < n; i++) {
-        const double size = fabs(x[i]);
-        /* A NaN must win, whatever the order of the comparison. */
-        largest = size > largest || isnan(size) ? size : largest;
-    }
-    return largest;
-}
-
 /* What a solver call works on. */
 struct problem {
     const struct lifting_line *ll;
@@ -119,19 +115,46 @@ struct problem {
     int iterations; /* spent so far */
 };
 
+static void take_piece(const struct problem *p, int i, double alpha)
+{
+    struct lifting_line_state *s = p->s;
+    const struct polar_piece piece = polar_piece_at(p->polar, alpha, p->plunge[i]);
+    s->piece_from[i] = piece.from;
+    s->piece_to[i] = piece.to;
+    s->origin[i] = piece.origin;
+    for (int k = 0; k < 4; k++) {
+        s->lift[k][i] = piece.lift[k];
+    }
+}
+
+/* Lift and slope of a station from the polar, which becomes its piece. The offset of an angle that
+ * is not finite is of no use: there the piece is constant. */
+static void ask_polar(const struct problem *p, int i, double alpha)
+{
+    struct lifting_line_state *s = p->s;
+    take_piece(p, i, alpha);
+    const double t = isfinite(alpha) ? alpha - s->origin[i] : 0.0;
+    const double a1 = s->lift[1][i], a2 = s->lift[2][i], a3 = s->lift[3][i];
+    s->table[i] = s->lift[0][i] + t * (a1 + t * (a2 + t * a3));
+    s->slope[i] = a1 + t * (2.0 * a2 + t * (3.0 * a3));
+}
+
 /* Residual c_l - C_l(alpha) - eps B~ alpha of s->cl, alpha = alpha_g - B c_l; fills induced, alpha,
  * table, slope, rough, residual. Returns the largest. */
 static double evaluate(const struct problem *p)
 {
     const struct lifting_line *ll = p->ll;
     struct lifting_line_state *s = p->s;
-    ll->multiply(ll->rows, s->n, ll->induced, s->cl, s->induced);
-    for (int i = 0; i < s->n; i++) {
-        s->alpha[i] = p->alpha_g[i] - s->induced[i];
+    double largest;
+    const bool inside = ll->evaluate(ll, s, &largest);
+    if (inside && !(s->epsilon > 0.0)) {
+        return largest;
     }
-    polar_lift(p->polar, s->n, s->alpha, p->plunge, s->table, s->slope);
     for (int i = 0; i < s->n; i++) {
-        s->residual[i] = s->cl[i] - s->table[i];
+        if (!(s->alpha[i] >= s->piece_from[i] && s->alpha[i] < s->piece_to[i])) {
+            ask_polar(p, i, s->alpha[i]);
+            s->residual[i] = s->cl[i] - s->table[i];
+        }
     }
     if (s->epsilon > 0.0) {
         ll->multiply(ll->rows, s->n, ll->induced, s->alpha, s->rough);
@@ -140,7 +163,7 @@ static double evaluate(const struct problem *p)
             s->residual[i] -= s->epsilon * s->rough[i];
         }
     }
-    return largest_of(s->n, s->residual);
+    return lifting_line_largest(s->n, s->residual);
 }
 
 /* Inverse of the Jacobian I + diag(C_l') B + eps B~ B at the present iterate. */
@@ -192,7 +215,10 @@ static void start_values(const struct problem *p)
     static const double weight[4][3] = {{0}, {1.0}, {2.0, -1.0}, {3.0, -3.0, 1.0}};
     struct lifting_line_state *s = p->s;
     if (s->known == 0) {
-        polar_lift(p->polar, s->n, p->alpha_g, p->plunge, s->cl, s->slope);
+        for (int i = 0; i < s->n; i++) {
+            ask_polar(p, i, p->alpha_g[i]);
+            s->cl[i] = s->table[i];
+        }
         return;
     }
     const double *a = weight[s->known];
@@ -331,6 +357,10 @@ struct lifting_line_report lifting_line_solve(const struct lifting_line *ll, con
     struct problem problem = {
         .ll = ll, .polar = p, .alpha_g = alpha_geometric, .plunge = plunge, .s = s};
     const int known = s->known;
+    memcpy(s->alpha_g, alpha_geometric, (size_t)s->n * sizeof *s->alpha_g);
+    for (int i = 0; i < s->n && known > 0; i++) {
+        take_piece(&problem, i, s->alpha[i]); /* at the new plunge */
+    }
     start_values(&problem);
     double residual = known > 0 ? newton(&problem) : newton_with(&problem, 0.0);
     if (!(residual <= ll->tolerance) && known > 0) {
@@ -347,7 +377,8 @@ struct lifting_line_report lifting_line_solve(const struct lifting_line *ll, con
     const bool converged = residual <= ll->tolerance;
     /* A failed solution is no start for the next. */
     s->known = converged ? (s->known < 3 ? s->known + 1 : 3) : 0;
-    const double smoothing = s->epsilon > 0.0 ? s->epsilon * largest_of(s->n, s->rough) : 0.0;
+    const double smoothing =
+        s->epsilon > 0.0 ? s->epsilon * lifting_line_largest(s->n, s->rough) : 0.0;
     return (struct lifting_line_report){.converged = converged,
                                         .iterations = problem.iterations,
                                         .residual = residual,

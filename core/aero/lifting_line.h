@@ -18,6 +18,14 @@
 #include "core/aero/polar.h"
 #include "core/simd.h"
 
+struct lifting_line;
+struct lifting_line_state;
+/* Residual of the equation without eps at s->cl: fills induced, alpha, table, slope and residual
+ * from the pieces of the polar, and the largest residual. False when an angle has left its piece.
+ */
+typedef bool (*lifting_line_kernel_fn)(const struct lifting_line *ll, struct lifting_line_state *s,
+                                       double *largest);
+
 struct lifting_line {
     int n;              /* stations = elements */
     double tolerance;   /* largest |residual| in c_l */
@@ -28,6 +36,7 @@ struct lifting_line {
     double *smooth;     /* B~ B                                      (rows x n) */
     double *row_sum;    /* of B                                          (rows) */
     simd_gemv_fn multiply;
+    lifting_line_kernel_fn evaluate;
 };
 
 MUST_CHECK enum status lifting_line_init(const struct wing *wing, double tolerance,
@@ -46,6 +55,9 @@ struct lifting_line_state {
     double *rough;                            /* B~ alpha, only with epsilon > 0             (n) */
     double *previous, *older;                 /* solutions one and two calls earlier     (n each) */
     double *trial, *table, *slope, *residual; /* scratch                 (n each) */
+    double *alpha_g;                          /* geometric angle [rad]                       (n) */
+    double *piece_from, *piece_to, *origin;   /* struct polar_piece of each station      (n each) */
+    double *lift[4];                          /* its coefficients                        (n each) */
     double *step;                             /* Newton step                         (rows) */
     double *inverse;                          /* inverse Jacobian, rows padded as B  (rows x n) */
     double *dense, *work;                     /* inversion                           (n x n each) */

@@ -86,12 +86,8 @@ void network_def_check(const struct network_def *def, const char *pointer, struc
     }
 }
 
-#define KERNEL_PASTE(name, kernel) name##_##kernel
-#define KERNEL_JOIN(name, kernel) KERNEL_PASTE(name, kernel)
-#define KERNEL(name) KERNEL_JOIN(name, KERNEL_NAME)
-
 #define KERNEL_NAME kernel_portable
-#define KERNEL_WIDTH 2
+#define KERNEL_WIDTH SIMD_WIDTH_PORTABLE
 #define KERNEL_TARGET
 #include "core/aero/network_kernel.inc"
 #undef KERNEL_NAME
@@ -99,7 +95,7 @@ void network_def_check(const struct network_def *def, const char *pointer, struc
 #undef KERNEL_TARGET
 
 #define KERNEL_NAME kernel_avx2
-#define KERNEL_WIDTH 4
+#define KERNEL_WIDTH SIMD_WIDTH_AVX2
 #define KERNEL_TARGET SIMD_TARGET_AVX2
 #include "core/aero/network_kernel.inc"
 #undef KERNEL_NAME
@@ -107,9 +103,12 @@ void network_def_check(const struct network_def *def, const char *pointer, struc
 #undef KERNEL_TARGET
 
 #define KERNEL_NAME kernel_avx512
-#define KERNEL_WIDTH 8
+#define KERNEL_WIDTH SIMD_WIDTH_AVX512
 #define KERNEL_TARGET SIMD_TARGET_AVX512
 #include "core/aero/network_kernel.inc"
+#undef KERNEL_NAME
+#undef KERNEL_WIDTH
+#undef KERNEL_TARGET
 
 static const network_kernel_fn kernel_of_level[SIMD_LEVELS] = {kernel_portable, kernel_avx2,
                                                                kernel_avx512};

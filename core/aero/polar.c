@@ -7,16 +7,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { QUANTITIES = 3, CUBIC = 4 }; /* c_l, c_d, c_m */
+enum { QUANTITIES = 3, PADDED = 4, CUBIC = 4 }; /* c_l, c_d, c_m, and nothing */
 
 /* On [alpha_i, alpha_i+1]: c = a0 + t (a1 + t (a2 + t a3)), t = alpha - alpha_i. */
+struct cubic {
+    double a[CUBIC][PADDED]; /* coefficient, quantity: the quantities are computed side by side */
+};
+
 struct polar {
     int n_alpha, n_plunge;
     double linear_from, linear_to;
     double steepest_fall; /* [1/rad] */
     double *alpha;        /* (n_alpha) */
     double *plunge;       /* (n_plunge) */
-    double *cubic;        /* (CUBIC x QUANTITIES x (n_alpha - 1) x n_plunge) */
+    double beyond;        /* the first angle behind the table */
+    struct cubic *cubic;  /* ((n_alpha - 1) x n_plunge) */
     /* Buckets of equal width over the angles give the first interval to look at in O(1). */
     int n_bucket;
     double bucket_per_rad;
@@ -131,13 +136,9 @@ static double node_slope(int n, const double *x, const double *y, int i)
     return i == n - 1 ? border_slope(h1, h0, d1, d0) : interior_slope(h0, h1, d0, d1);
 }
 
-static double *cubic_of(const struct polar *p, int plunge, int interval, int quantity)
+static struct cubic *cubic_of(const struct polar *p, int plunge, int interval)
 {
-    const size_t index =
-        (((size_t)plunge * (size_t)(p->n_alpha - 1) + (size_t)interval) * QUANTITIES +
-         (size_t)quantity) *
-        CUBIC;
-    return p->cubic + index;
+    return p->cubic + ((ptrdiff_t)plunge * (p->n_alpha - 1) + interval);
 }
 
 static void fill_cubics(struct polar *p, int plunge, int quantity, const double *y)
@@ -147,22 +148,23 @@ static void fill_cubics(struct polar *p, int plunge, int quantity, const double 
         const double s0 = node_slope(p->n_alpha, p->alpha, y, i);
         const double s1 = node_slope(p->n_alpha, p->alpha, y, i + 1);
         const double d = (y[i + 1] - y[i]) / h;
-        double *a = cubic_of(p, plunge, i, quantity);
-        a[0] = y[i];
-        a[1] = s0;
-        a[2] = (3.0 * d - 2.0 * s0 - s1) / h;
-        a[3] = (s0 + s1 - 2.0 * d) / (h * h);
+        struct cubic *c = cubic_of(p, plunge, i);
+        c->a[0][quantity] = y[i];
+        c->a[1][quantity] = s0;
+        c->a[2][quantity] = (3.0 * d - 2.0 * s0 - s1) / h;
+        c->a[3][quantity] = (s0 + s1 - 2.0 * d) / (h * h);
     }
 }
 
-/* Steepest fall of a cubic over [0, h]: at an end, or at the vertex of its slope. */
-static double fall_of(const double *a, double h)
+/* Steepest fall of the lift over [0, h]: at an end, or at the vertex of its slope. */
+static double fall_of(const struct cubic *c, double h)
 {
-    const double vertex = a[3] > 0.0 ? num_clamp(-a[2] / (3.0 * a[3]), 0.0, h) : 0.0;
+    const double a1 = c->a[1][0], a2 = c->a[2][0], a3 = c->a[3][0];
+    const double vertex = a3 > 0.0 ? num_clamp(-a2 / (3.0 * a3), 0.0, h) : 0.0;
     const double t[] = {0.0, vertex, h};
     double fall = 0.0;
     for (size_t k = 0; k < sizeof t / sizeof t[0]; k++) {
-        fall = fmax(fall, -(a[1] + t[k] * (2.0 * a[2] + t[k] * 3.0 * a[3])));
+        fall = fmax(fall, -(a1 + t[k] * (2.0 * a2 + t[k] * 3.0 * a3)));
     }
     return fall;
 }
@@ -172,7 +174,7 @@ static double steepest_fall(const struct polar *p)
     double fall = 0.0;
     for (int r = 0; r < p->n_plunge; r++) {
         for (int i = 0; i + 1 < p->n_alpha; i++) {
-            fall = fmax(fall, fall_of(cubic_of(p, r, i, 0), p->alpha[i + 1] - p->alpha[i]));
+            fall = fmax(fall, fall_of(cubic_of(p, r, i), p->alpha[i + 1] - p->alpha[i]));
         }
     }
     return fall;
@@ -192,14 +194,14 @@ enum status polar_create(const struct polar_def *def, struct polar **out)
                         .linear_from = def->linear_from,
                         .linear_to = def->linear_to,
                         .n_bucket = 4 * def->n_alpha};
-    p->alpha = calloc(na + np + (size_t)(CUBIC * QUANTITIES) * (na - 1) * np, sizeof *p->alpha);
+    p->alpha = calloc(na + np, sizeof *p->alpha);
+    p->cubic = calloc((na - 1) * np, sizeof *p->cubic);
     p->bucket = malloc((size_t)p->n_bucket * sizeof *p->bucket);
-    if (p->alpha == NULL || p->bucket == NULL) {
+    if (p->alpha == NULL || p->cubic == NULL || p->bucket == NULL) {
         polar_destroy(p);
         return ST_NO_MEMORY;
     }
     p->plunge = p->alpha + na;
-    p->cubic = p->plunge + np;
     memcpy(p->alpha, def->alpha, na * sizeof *p->alpha);
     memcpy(p->plunge, def->plunge, np * sizeof *p->plunge);
     for (int r = 0; r < def->n_plunge; r++) {
@@ -210,6 +212,7 @@ enum status polar_create(const struct polar_def *def, struct polar **out)
         fill_cubics(p, r, 2, def->cm + (size_t)r * na);
     }
     p->steepest_fall = steepest_fall(p);
+    p->beyond = nextafter(p->alpha[na - 1], HUGE_VAL);
     const double range = p->alpha[na - 1] - p->alpha[0];
     p->bucket_per_rad = p->n_bucket / range;
     int interval = 0;
@@ -228,13 +231,14 @@ void polar_destroy(struct polar *p)
 {
     if (p != NULL) {
         free(p->alpha);
+        free(p->cubic);
         free(p->bucket);
         free(p);
     }
 }
 
 /* Interval of the angle and the offset in it; held at the borders. */
-static int locate(const struct polar *p, double alpha, double *t, bool *outside)
+static inline int locate(const struct polar *p, double alpha, double *t, bool *outside)
 {
     const double first = p->alpha[0], last = p->alpha[p->n_alpha - 1];
     /* Written so that a NaN is outside and does not index. */
@@ -251,7 +255,7 @@ static int locate(const struct polar *p, double alpha, double *t, bool *outside)
 }
 
 /* Rows of the plunge that enclose the value and the weight of the upper one. */
-static int locate_plunge(const struct polar *p, double plunge, double *weight, bool *outside)
+static inline int locate_plunge(const struct polar *p, double plunge, double *weight, bool *outside)
 {
     const int last = p->n_plunge - 1;
     *weight = 0.0;
@@ -270,61 +274,69 @@ static int locate_plunge(const struct polar *p, double plunge, double *weight, b
     return r;
 }
 
-static double cubic_value(const double *a, double t)
+/* Where a state is in the table: its interval with the offset in it, the cubics of the two rows
+ * that enclose the plunge, twice the same where there is one, and the weight of the second. */
+struct place {
+    int interval;
+    double t, weight;
+    const struct cubic *row[2];
+    bool outside_alpha, outside;
+};
+
+static inline struct place place_of(const struct polar *p, double alpha, double plunge)
 {
-    return a[0] + t * (a[1] + t * (a[2] + t * a[3]));
+    struct place at;
+    at.interval = locate(p, alpha, &at.t, &at.outside_alpha);
+    at.outside = at.outside_alpha;
+    const int row = locate_plunge(p, plunge, &at.weight, &at.outside);
+    at.row[0] = cubic_of(p, row, at.interval);
+    at.row[1] = at.weight > 0.0 ? cubic_of(p, row + 1, at.interval) : at.row[0];
+    return at;
 }
 
-static double cubic_slope(const double *a, double t)
+/* Coefficient k of a quantity between the rows. */
+static inline double blended(const struct place *at, int k, int quantity)
 {
-    return a[1] + t * (2.0 * a[2] + t * 3.0 * a[3]);
+    const double a = at->row[0]->a[k][quantity];
+    return a + at->weight * (at->row[1]->a[k][quantity] - a);
 }
 
 struct polar_value polar_at(const struct polar *p, double alpha, double plunge)
 {
-    double t, w;
-    bool outside, outside_plunge = false;
-    const int i = locate(p, alpha, &t, &outside);
-    const int r = locate_plunge(p, plunge, &w, &outside_plunge);
-    const double hold = outside ? 0.0 : 1.0;
-    double value[QUANTITIES], slope[QUANTITIES];
-    for (int k = 0; k < QUANTITIES; k++) {
-        const double *a = cubic_of(p, r, i, k);
-        value[k] = cubic_value(a, t);
-        slope[k] = cubic_slope(a, t);
-        if (w > 0.0) {
-            const double *b = cubic_of(p, r + 1, i, k);
-            value[k] += w * (cubic_value(b, t) - value[k]);
-            slope[k] += w * (cubic_slope(b, t) - slope[k]);
-        }
+    const struct place at = place_of(p, alpha, plunge);
+    const double hold = at.outside_alpha ? 0.0 : 1.0, t = at.t;
+    double value[PADDED], slope[PADDED];
+    for (int q = 0; q < PADDED; q++) {
+        const double a1 = blended(&at, 1, q), a2 = blended(&at, 2, q), a3 = blended(&at, 3, q);
+        value[q] = blended(&at, 0, q) + t * (a1 + t * (a2 + t * a3));
+        slope[q] = a1 + t * (2.0 * a2 + t * (3.0 * a3));
     }
     return (struct polar_value){.cl = value[0],
                                 .cd = value[1],
                                 .cm = value[2],
                                 .cl_slope = hold * slope[0],
                                 .cm_slope = hold * slope[2],
-                                .outside = outside || outside_plunge,
-                                .outside_alpha = outside};
+                                .outside = at.outside,
+                                .outside_alpha = at.outside_alpha};
 }
 
-void polar_lift(const struct polar *p, int n, const double *alpha, const double *plunge, double *cl,
-                double *cl_slope)
+struct polar_piece polar_piece_at(const struct polar *p, double alpha, double plunge)
 {
-    for (int j = 0; j < n; j++) {
-        double t, w;
-        bool outside, ignored = false;
-        const int i = locate(p, alpha[j], &t, &outside);
-        const int r = locate_plunge(p, plunge[j], &w, &ignored);
-        const double *a = cubic_of(p, r, i, 0);
-        double value = cubic_value(a, t), slope = cubic_slope(a, t);
-        if (w > 0.0) {
-            const double *b = cubic_of(p, r + 1, i, 0);
-            value += w * (cubic_value(b, t) - value);
-            slope += w * (cubic_slope(b, t) - slope);
-        }
-        cl[j] = value;
-        cl_slope[j] = outside ? 0.0 : slope;
+    const struct place at = place_of(p, alpha, plunge);
+    const double a0 = blended(&at, 0, 0), a1 = blended(&at, 1, 0);
+    const double a2 = blended(&at, 2, 0), a3 = blended(&at, 3, 0), t = at.t;
+    if (at.outside_alpha) {
+        const bool above = alpha > p->alpha[0];
+        return (struct polar_piece){.from = above ? p->beyond : -HUGE_VAL,
+                                    .to = above ? HUGE_VAL : p->alpha[0],
+                                    .origin = above ? p->beyond : p->alpha[0],
+                                    .lift = {a0 + t * (a1 + t * (a2 + t * a3))}};
     }
+    const int i = at.interval;
+    return (struct polar_piece){.from = p->alpha[i],
+                                .to = i + 2 < p->n_alpha ? p->alpha[i + 1] : p->beyond,
+                                .origin = p->alpha[i],
+                                .lift = {a0, a1, a2, a3}};
 }
 
 struct polar_range polar_linear_range(const struct polar *p)

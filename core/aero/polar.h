@@ -64,9 +64,14 @@ struct polar_value {
 /* Coefficients at one angle [rad] and plunge v/c. */
 struct polar_value polar_at(const struct polar *p, double alpha, double plunge);
 
-/* Lift coefficient and its slope only, for n stations: what the lifting line asks in its loop. */
-void polar_lift(const struct polar *p, int n, const double *alpha, const double *plunge, double *cl,
-                double *cl_slope);
+/* The cubic piece of the lift curve an angle is on: with t = alpha - origin,
+ * c_l = lift[0] + t (lift[1] + t (lift[2] + t lift[3])) for from <= alpha < to. The same bits as
+ * polar_at. A piece beyond the table is constant; an angle that is not a number gets such a one. */
+struct polar_piece {
+    double from, to, origin; /* [rad] */
+    double lift[4];
+};
+struct polar_piece polar_piece_at(const struct polar *p, double alpha, double plunge);
 
 /* Steepest fall of the lift with the angle anywhere in the table [1/rad], >= 0. */
 double polar_steepest_fall(const struct polar *p);

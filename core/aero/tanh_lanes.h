@@ -13,9 +13,11 @@
 
 #define TANH_VECTOR lanes
 #define TANH_NAME tanh_scaled_lanes
+#define TANH_TARGET
 #include "core/aero/tanh_lanes.inc"
 #undef TANH_VECTOR
 #undef TANH_NAME
+#undef TANH_TARGET
 
 /* In place; by pointer, since passing wide vectors by value depends on the instruction set. */
 static inline __attribute__((always_inline)) void tanh_lanes(lanes *v)

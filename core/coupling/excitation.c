@@ -94,6 +94,8 @@ static void set_root(const struct model *m, double t, struct workspace *w)
     const struct drive_state pitch = drive_at(&e->root_pitch, t);
     const struct drive_state plunge = drive_at(&e->root_plunge, t);
     w->root_pitch = pitch;
+    w->axes_cos = cos(m->def.flow.incidence + pitch.value);
+    w->axes_sin = sin(m->def.flow.incidence + pitch.value);
     w->root_plunge = plunge;
     for (int i = 0; i < w->n_station; i++) {
         const double arm = e->mid_chord[i];

@@ -255,13 +255,12 @@ static void report_apparent_mass(const struct model *m, struct workspace *w)
     }
 }
 
-/* Lift normal to the undisturbed stream and drag along it, turned by alpha_0 into the beam frame;
+/* Lift normal to the undisturbed stream and drag along it, turned into the beam frame;
  * then the modal loads, Eq. (C.5). */
 static void modal_loads(const struct model *m, struct workspace *w)
 {
     const double q = m->dynamic_pressure;
-    const double incidence = m->def.flow.incidence + w->root_pitch.value;
-    const double c = cos(incidence), s = sin(incidence);
+    const double c = w->axes_cos, s = w->axes_sin;
     for (int i = 0; i < w->n_station; i++) {
         const double chord = m->chord[i];
         const double lift = q * chord * w->cl[i], drag = q * chord * w->cd[i];

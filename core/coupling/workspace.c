@@ -86,7 +86,10 @@ static enum status allocate(const struct model *m, struct workspace *w)
 
 enum status workspace_init(const struct model *m, struct workspace *out)
 {
-    struct workspace w = {.n_mode = m->n_mode, .n_station = m->n_station};
+    struct workspace w = {.n_mode = m->n_mode,
+                          .n_station = m->n_station,
+                          .axes_cos = cos(m->def.flow.incidence),
+                          .axes_sin = sin(m->def.flow.incidence)};
     enum status st = size_window(m, &w.window);
     if (st != ST_OK) {
         return st;

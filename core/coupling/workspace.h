@@ -55,6 +55,7 @@ struct workspace {
     double *imposed_load;                   /* of them, inertia of the root's motion (n_mode) */
     struct drive_state root_pitch;          /* of the clamp [rad] */
     struct drive_state root_plunge;         /* [m] */
+    double axes_cos, axes_sin;              /* of the angle of the beam's axes to the stream */
     double gust, gust_previous;             /* vertical velocity now and a time step ago [m/s] */
     struct lifting_line_state lifting_line; /* n = 0 without one */
 

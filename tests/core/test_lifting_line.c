@@ -1,5 +1,6 @@
 /* The solver of the lifting line; its numbers are verified in tests/verify/lifting_line.c. */
 #include "core/aero/lifting_line.h"
+#include "core/aero/lifting_line_kernel.h"
 #include "core/la.h"
 #include "core/num.h"
 #include "tests/support/fixture.h"
@@ -246,6 +247,37 @@ static void nan_does_not_stay(void **state)
     polar_def_done(&def);
 }
 
+/* Every instruction set of this machine gives the same bits, on a wing whose angles run over
+ * several pieces of the polar and out of it. */
+static void levels_agree(void **state)
+{
+    (void)state;
+    struct polar_def def = fixture_linear_polar(2.0 * NUM_PI, 0.0, 0.0, 0.3);
+    struct setting s[SIMD_LEVELS];
+    const enum simd_level best = simd_level_of_machine();
+    for (enum simd_level level = SIMD_PORTABLE; level <= best; level++) {
+        start(&def, 1e-12, 50, &s[level]);
+        s[level].ll.multiply = simd_gemv(level);
+        s[level].ll.evaluate = lifting_line_kernel(level);
+    }
+    for (int k = 0; k < 40; k++) {
+        double alpha[N], plunge[N];
+        for (int i = 0; i < N; i++) {
+            alpha[i] = 0.4 * sin(0.3 * k + 0.2 * i);
+            plunge[i] = 0.0;
+        }
+        for (enum simd_level level = SIMD_PORTABLE; level <= best; level++) {
+            (void)lifting_line_solve(&s[level].ll, s[level].polar, alpha, plunge, &s[level].state);
+            assert_memory_equal(s[level].state.cl, s[0].state.cl, sizeof alpha);
+            assert_memory_equal(s[level].state.alpha, s[0].state.alpha, sizeof alpha);
+        }
+    }
+    for (enum simd_level level = SIMD_PORTABLE; level <= best; level++) {
+        finish(&s[level]);
+    }
+    polar_def_done(&def);
+}
+
 static int setup(void **state)
 {
     (void)state;
@@ -256,9 +288,13 @@ static int setup(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_report_is_true),      cmocka_unit_test(linear_problems_take_one_step),
-        cmocka_unit_test(stall_is_solved_or_said), cmocka_unit_test(viscosity_only_in_the_fall),
-        cmocka_unit_test(no_iterations_left),      cmocka_unit_test(nan_does_not_stay),
+        cmocka_unit_test(the_report_is_true),
+        cmocka_unit_test(linear_problems_take_one_step),
+        cmocka_unit_test(stall_is_solved_or_said),
+        cmocka_unit_test(viscosity_only_in_the_fall),
+        cmocka_unit_test(no_iterations_left),
+        cmocka_unit_test(nan_does_not_stay),
+        cmocka_unit_test(levels_agree),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }
