@@ -24,6 +24,17 @@ static void write_root(struct json_out *out, const struct root_result *root, dou
     json_object_end(out);
 }
 
+static void write_root_at(struct json_out *out, const char *key, const struct damping_result *d,
+                          int index, double scale)
+{
+    json_key(out, key);
+    if (index >= 0 && index < d->n_root) {
+        write_root(out, &d->root[index], scale);
+    } else {
+        json_null(out);
+    }
+}
+
 static void write_signal_damping(struct json_out *out, const struct damping_result *d, double scale)
 {
     json_object_begin(out);
@@ -33,12 +44,8 @@ static void write_signal_damping(struct json_out *out, const struct damping_resu
         write_root(out, &d->root[i], scale);
     }
     json_array_end(out);
-    json_key(out, "torsion");
-    if (d->torsion >= 0 && d->torsion < d->n_root) {
-        write_root(out, &d->root[d->torsion], scale);
-    } else {
-        json_null(out);
-    }
+    write_root_at(out, "torsion", d, d->torsion, scale);
+    write_root_at(out, "least_stable", d, d->least_stable, scale);
     write_window(out, d->window_from, d->window_to);
     json_key_number(out, "hilbert_ratio", d->hilbert_ratio);
     json_key_number(out, "log_decrement", d->log_decrement);

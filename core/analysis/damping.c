@@ -11,6 +11,7 @@ enum { SAMPLES_MAX = 640, SAMPLES_MIN = 24 };
 static const double samples_per_period_high = 3.0; /* of the fastest mode: Nyquist with a margin */
 static const double threshold = 1e-3;              /* singular values, relative to the largest */
 static const double same_frequency = 0.02;         /* e-folds between roots of one motion */
+static const double share_least = 0.05;            /* of the largest root, for one to count */
 
 static double mean_of(const double *y, int from, int to)
 {
@@ -142,6 +143,24 @@ static int find_torsion(const struct damping_result *r, double frequency)
     return nearest;
 }
 
+/* Index of the least damped of the roots that count at the end of the window: what the motion turns
+ * into. Smaller ones may be noise of the fit. */
+static int find_least_stable(const struct damping_result *r, const double *size_at_end)
+{
+    double largest = 0.0;
+    for (int k = 0; k < r->n_root; k++) {
+        largest = fmax(largest, size_at_end[k]);
+    }
+    int least = -1;
+    for (int k = 0; k < r->n_root; k++) {
+        if (size_at_end[k] >= share_least * largest &&
+            (least < 0 || r->root[k].ratio < r->root[least].ratio)) {
+            least = k;
+        }
+    }
+    return least;
+}
+
 /* Size a root reaches within the window. */
 static double reach(const struct pencil_root *p, double length)
 {
@@ -164,25 +183,30 @@ static void take_roots(const struct pencil_fit *fit, double dt, int block, doubl
                        struct damping_result *out)
 {
     const double nyquist = NUM_PI / (dt * block);
+    double size_at_end[LIMIT_ROOTS];
     for (int k = 0; k < fit->n && out->n_root < LIMIT_ROOTS; k++) {
         const struct pencil_root *p = &fit->root[k];
         if (is_drift(fit, p, length) || p->omega > 0.999 * nyquist) {
             continue;
         }
         const double complex lambda = NUM_COMPLEX(p->sigma, p->omega);
+        size_at_end[out->n_root] = p->amplitude * exp(p->sigma * length);
         out->root[out->n_root++] =
             (struct root_result){.frequency_hz = p->omega / (2.0 * NUM_PI),
                                  .ratio = -p->sigma / cabs(lambda),
                                  .amplitude = p->amplitude / block_gain(lambda, dt, block),
                                  .residual = fit->residual};
     }
+    out->least_stable = find_least_stable(out, size_at_end);
 }
 
 enum status damping_identify(int n, const double *y, double dt, const struct damping_system *system,
                              struct damping_result *out)
 {
-    struct damping_result r = {
-        .torsion = -1, .hilbert_ratio = (double)NAN, .log_decrement = (double)NAN};
+    struct damping_result r = {.torsion = -1,
+                               .least_stable = -1,
+                               .hilbert_ratio = (double)NAN,
+                               .log_decrement = (double)NAN};
     double sample[SAMPLES_MAX];
     if (n < SAMPLES_MIN) {
         *out = r;

@@ -17,8 +17,11 @@ struct root_result {
 struct damping_result {
     int n_root;
     struct root_result root[LIMIT_ROOTS]; /* by falling amplitude */
-    int torsion; /* index of the root of the first torsion mode: the nearest, or the largest */
-                 /* within 2 % of it; -1 if none */
+    int torsion;      /* index of the root of the first torsion mode: the nearest, or the largest */
+                      /* within 2 % of it; -1 if none */
+    int least_stable; /* index of the root with the least ratio among those that have at least 5 %
+                       */
+                      /* of the size of the largest at the end of the window; -1 if none */
     double window_from; /* [s] */
     double window_to;
     double hilbert_ratio; /* slope of the envelope of the dominant root, NaN if not usable */

@@ -451,6 +451,7 @@ static void test_not_finite(void **state)
     r.means.cl = (double)NAN;
     r.tip_twist.hilbert_ratio = (double)NAN;
     r.tip_twist.torsion = -1;
+    r.tip_twist.least_stable = -1;
     r.steps = 0;
     cJSON *s = document(f, "summary", &r);
     assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(s, "e_star")));

@@ -72,6 +72,26 @@ static void torsion_is_the_larger_of_close_roots_and_never_bending(void **state)
     free(bending);
 }
 
+/* A small motion that grows beside a large one that decays; a trace of another one does not count.
+ */
+static void the_least_stable_root_is_what_the_motion_turns_into(void **state)
+{
+    (void)state;
+    enum { N = 20000 };
+    double *large = signal(N, 1.0, -1.0, 4.0, 0.2), *growing = signal(N, 0.02, 0.8, 26.0, 0.0);
+    double *trace = signal(N, 1e-4, 1.0, 60.0, 0.0);
+    for (int i = 0; i < N; i++) {
+        large[i] += growing[i] + trace[i];
+    }
+    const struct damping_result r = identify(N, large);
+    assert_true(r.least_stable > 0);
+    assert_near_rel(r.root[r.least_stable].frequency_hz, 26.0, 1e-3);
+    assert_near_rel(r.root[r.least_stable].ratio, -0.8 / (2.0 * NUM_PI * 26.0), 0.02);
+    free(large);
+    free(growing);
+    free(trace);
+}
+
 static void a_runaway_has_a_real_root(void **state)
 {
     (void)state;
@@ -156,6 +176,7 @@ int main(void)
         cmocka_unit_test(a_decaying_signal_is_read_at_its_start),
         cmocka_unit_test(a_growing_signal_is_read_at_its_end),
         cmocka_unit_test(torsion_is_the_larger_of_close_roots_and_never_bending),
+        cmocka_unit_test(the_least_stable_root_is_what_the_motion_turns_into),
         cmocka_unit_test(a_runaway_has_a_real_root),
         cmocka_unit_test(too_little_gives_no_roots),
         cmocka_unit_test(a_blow_up_does_not_fail),
