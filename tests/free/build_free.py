@@ -28,7 +28,7 @@ DRAWINGS = ROOT / "docs" / "free"
 MODELS = tuple((key, options, name, colour or svg.GREEN) for key, options, name, colour in build_loops.MODELS)
 EARLY, LATE = 10.0, 60.0  # [c/V]: swings between count for frequency and growth
 LONG = 1200.0             # [c/V] until a model's limit cycle
-STEADY = 0.0015           # [V/c] growth below which a swing counts as a limit cycle
+STEADY = 0.001            # [V/c] growth below which a swing counts as a limit cycle
 SMALLEST = 0.5            # [deg] and above which size
 WIDEST = 20.0             # [deg] end of the polar
 
@@ -167,7 +167,7 @@ def compare(aerom, row, own):
         item[key] = summary(short["t"], short["alpha_deg"])
         late = summary(long["t"], long["alpha_deg"])
         item[key].update(end=late["end"], end_growth=late["end_growth"], series=short, stop=stop,
-                         widest=max(map(abs, long["alpha_deg"])))
+                         widest=max(map(abs, long["alpha_deg"][-len(long["alpha_deg"]) // 4:])))
     return item
 
 
