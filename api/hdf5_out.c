@@ -69,9 +69,12 @@ static hid_t put_array(hid_t file, const char *name, int rank, const int *shape,
     return dataset;
 }
 
-/* Texts of a list, packed to one length; NULL when out of memory. */
+/* Texts of a list that has any, packed to one length; NULL when out of memory. */
 static char *pack(int n, const char *const *label, size_t *size)
 {
+    if (n < 1) {
+        return NULL;
+    }
     *size = 1;
     for (int i = 0; i < n; i++) {
         *size = strlen(label[i]) > *size ? strlen(label[i]) : *size;
