@@ -41,6 +41,29 @@ static void test_slots(void **state)
     dispatch_destroy(d);
 }
 
+/* Units of one study in several slots: a cancel reaches all, a lost lease only its own. */
+static void test_units(void **state)
+{
+    (void)state;
+    struct dispatch *d = dispatch_create(3, 1);
+    assert_non_null(d);
+    const struct store_ticket unit[] = {{.id = "s", .unit = 1, .fence = 4},
+                                        {.id = "s", .unit = 2, .fence = 5},
+                                        {.id = "other", .unit = 1, .fence = 4}};
+    for (int i = 0; i < 3; i++) {
+        dispatch_enter(d, i, &unit[i]);
+    }
+    double progress = -1.0;
+    assert_false(dispatch_progress(d, "s", &progress)); /* that of a study is stored */
+    assert_true(dispatch_cancel(d, "s", 5));
+    assert_false(atomic_load(dispatch_control(d, 0).cancel));
+    assert_true(atomic_load(dispatch_control(d, 1).cancel));
+    assert_true(dispatch_cancel(d, "s", 0));
+    assert_true(atomic_load(dispatch_control(d, 0).cancel));
+    assert_false(atomic_load(dispatch_control(d, 2).cancel));
+    dispatch_destroy(d);
+}
+
 static void test_stop_reaches_later_jobs(void **state)
 {
     (void)state;
@@ -83,6 +106,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_slots),
+        cmocka_unit_test(test_units),
         cmocka_unit_test(test_stop_reaches_later_jobs),
         cmocka_unit_test(test_bell_is_not_missed),
     };
