@@ -152,6 +152,7 @@ static enum status identify(struct api_case *c)
     json_string(&identity, AEROM_CORE_VERSION);
     write_materials(&identity, c);
     json_string(&identity, case_def_has_polar(&c->def) ? c->def.aero.polar->hash : NULL);
+    json_string(&identity, c->def.kind == CASE_TRAINING ? c->training.dataset_hash : NULL);
     const bool moves = case_kind_is_dynamic(c->def.kind);
     json_string(&identity, moves && c->def.aero.network != NULL ? c->def.aero.network->hash : NULL);
     const bool ok = !identity.failed && c->canonical != NULL;
@@ -182,6 +183,8 @@ enum status api_case_from_tree(const struct library *lib, const struct cJSON *tr
     }
     c->library = lib;
     case_def_defaults(&c->def);
+    training_def_defaults(&c->training.def);
+    c->training.seed = 1;
     reader_init(&r, prefix, problems);
     r.kind = kind_of(tree);
     r.context = c;

@@ -12,7 +12,7 @@
 struct api_case;
 struct cJSON;
 
-/* "simulation" "modes" "section" "static" "stability" "loop". */
+/* "simulation" "modes" "section" "static" "stability" "loop" "training". */
 const char *case_kind_name(enum case_kind kind);
 bool case_kind_parse(const char *name, enum case_kind *out);
 /* "none" "network" "attached" "dynamic_stall". */

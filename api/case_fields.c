@@ -28,13 +28,10 @@ static const struct field_range speed_tolerance = {.min = 1e-12, .max = 0.1};
 static const struct field_range sampling = {.min = 1, .max = LIMIT_STEPS};
 
 /* By the enums of core. */
-const char *const case_kind_names[] = {[CASE_SIMULATION] = "simulation",
-                                       [CASE_MODES] = "modes",
-                                       [CASE_SECTION] = "section",
-                                       [CASE_STATIC] = "static",
-                                       [CASE_STABILITY] = "stability",
-                                       [CASE_LOOP] = "loop",
-                                       NULL};
+const char *const case_kind_names[] = {[CASE_SIMULATION] = "simulation", [CASE_MODES] = "modes",
+                                       [CASE_SECTION] = "section",       [CASE_STATIC] = "static",
+                                       [CASE_STABILITY] = "stability",   [CASE_LOOP] = "loop",
+                                       [CASE_TRAINING] = "training",     NULL};
 const char *const dynamic_names[] = {[DYNAMIC_NONE] = "none",
                                      [DYNAMIC_NETWORK] = "network",
                                      [DYNAMIC_ATTACHED] = "attached",
@@ -80,6 +77,7 @@ enum {
     STATIC = CASE_IN_STATIC,
     STABILITY = CASE_IN_STABILITY,
     LOOP = CASE_IN_LOOP,
+    TRAINING = CASE_IN_TRAINING,
     WITH_POLAR = FLOWS | LOOP,
     WITH_DYNAMIC = MOVING | LOOP,
     BEAM = CASE_WITH_BEAM | CASE_IN_SECTION
@@ -283,7 +281,7 @@ const struct field case_fields[] = {
      .write = case_write_materials},
     {.key = "polars",
      .kind = FIELD_CUSTOM,
-     .kinds = WITH_POLAR,
+     .kinds = WITH_POLAR | TRAINING,
      .omit = case_has_no_own_polar,
      .read = case_read_polars,
      .write = case_write_polars},
@@ -308,6 +306,8 @@ const struct field case_fields[] = {
      .variants = motion_variants,
      .choose = motion_choose,
      .finish = motion_finish},
+    OBJECT("training", training_fields, .required = true, .kinds = TRAINING,
+           .finish = training_finish),
     OBJECT("solver", solver_fields, .required = true, .kinds = MODAL),
     OBJECT("stability", stability_fields, .required = true, .kinds = STABILITY),
     OBJECT("output", output_fields, .kinds = SIMULATION | STATIC),

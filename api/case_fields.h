@@ -7,6 +7,7 @@
 #include "api/entry.h"
 #include "api/field.h"
 #include "api/motion_fields.h"
+#include "api/training_fields.h"
 
 struct api_case {
     int schema_version;
@@ -14,6 +15,7 @@ struct api_case {
     struct station_def *station; /* (def.beam.n_station), owned; def.beam points here */
     struct entry_set local;      /* definitions inside the case */
     struct motion_entry motion;  /* kind loop; def.loop points here */
+    struct training_entry training;
     const struct library *library;
     char *canonical;
     char hash[LIMIT_HASH];
@@ -27,6 +29,7 @@ enum case_group {
     CASE_IN_STATIC = 1u << CASE_STATIC,
     CASE_IN_STABILITY = 1u << CASE_STABILITY,
     CASE_IN_LOOP = 1u << CASE_LOOP,
+    CASE_IN_TRAINING = 1u << CASE_TRAINING,
     CASE_WITH_BEAM = CASE_IN_SIMULATION | CASE_IN_MODES | CASE_IN_STATIC | CASE_IN_STABILITY,
     CASE_LABEL = 1u << 8,
     CASE_OF_NO_KIND = 1u << 9 /* only what every kind needs can be asked for */

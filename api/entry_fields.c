@@ -80,17 +80,17 @@ static const struct field_range centre = {.min = -0.5, .max = 0.5};
 static const struct field_range hidden = {.min = 1, .max = LIMIT_NET_HIDDEN};
 
 static const char *const activation_names[] = {"tanh", NULL};
-static const char *const input_names[] = {
+const char *const network_input_names[] = {
 #define INPUT_NAME(code, name, text) [code] = (name),
     NETWORK_INPUT_LIST(INPUT_NAME)
 #undef INPUT_NAME
         [NET_IN_COUNT] = NULL};
-static const char *const output_names[] = {
+const char *const network_output_names[] = {
     [NET_OUT_CL] = "cl", [NET_OUT_CM] = "cm", [NET_OUT_CD] = "cd", [NET_OUT_COUNT] = NULL};
 
 const char *network_output_name(enum network_output output)
 {
-    return output_names[output];
+    return network_output_names[output];
 }
 
 #define MATERIAL(member_, key_, range_)                                                            \
@@ -252,8 +252,8 @@ const struct field network_fields[] = {
      .kinds = ENTRY_TABLE,
      .offset = offsetof(struct network_entry, activation),
      .names = activation_names},
-    NETWORK_NAMES("inputs", input, n_in, input_names, LIMIT_NET_INPUTS),
-    NETWORK_NAMES("outputs", output, n_out, output_names, LIMIT_NET_OUTPUTS),
+    NETWORK_NAMES("inputs", input, n_in, network_input_names, LIMIT_NET_INPUTS),
+    NETWORK_NAMES("outputs", output, n_out, network_output_names, LIMIT_NET_OUTPUTS),
     {.key = "hidden",
      .kind = FIELD_INTEGER,
      .required = true,

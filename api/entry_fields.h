@@ -16,4 +16,8 @@ extern const struct field material_fields[]; /* of struct material */
 extern const struct field polar_fields[];    /* of struct polar_entry */
 extern const struct field network_fields[];  /* of struct network_entry */
 
+/* By the enums of core; they end with NULL. */
+extern const char *const network_input_names[];
+extern const char *const network_output_names[];
+
 #endif

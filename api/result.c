@@ -256,9 +256,11 @@ const char *const *result_documents(enum case_kind kind)
     static const char *const statics[] = {"summary", "static", "section", NULL};
     static const char *const stability[] = {"summary", "stability", "modes", "section", NULL};
     static const char *const loop[] = {"summary", NULL};
+    static const char *const training[] = {"summary", "training", "network", NULL};
     static const char *const *const lists[] = {
         [CASE_SIMULATION] = simulation, [CASE_MODES] = modes,         [CASE_SECTION] = section,
-        [CASE_STATIC] = statics,        [CASE_STABILITY] = stability, [CASE_LOOP] = loop};
+        [CASE_STATIC] = statics,        [CASE_STABILITY] = stability, [CASE_LOOP] = loop,
+        [CASE_TRAINING] = training};
     assert((unsigned)kind < sizeof lists / sizeof lists[0]);
     return lists[kind];
 }

@@ -14,7 +14,7 @@ struct run_timing {
 /* Documents a kind of case produces, as a NULL-terminated list: simulation: "summary" "damping"
  * "loads" "modes" "section"; modes: "summary" "modes" "section"; section: "summary" "section";
  * static: "summary" "static" "section"; stability: "summary" "stability" "modes" "section";
- * loop: "summary". */
+ * loop: "summary"; training: "summary" "training" "network", which training_out.h makes. */
 const char *const *result_documents(enum case_kind kind);
 
 /* One document as malloc'ed JSON text; NULL only when out of memory. */

@@ -32,6 +32,8 @@ const struct route route_table[] = {
     {"GET", "/v1/jobs/{id}/section", handle_document, NULL, "section"},
     {"GET", "/v1/jobs/{id}/stability", handle_document, NULL, "stability"},
     {"GET", "/v1/jobs/{id}/static", handle_document, NULL, "static"},
+    {"GET", "/v1/jobs/{id}/network", handle_document, NULL, "network"},
+    {"GET", "/v1/jobs/{id}/training", handle_document, NULL, "training"},
     {"GET", "/v1/jobs/{id}/summary", handle_document, NULL, "summary"},
     {"POST", "/v1/studies", handle_study_submit, NULL, NULL},
     {"GET", "/v1/studies", handle_study_list, study_list_query, NULL},

@@ -36,7 +36,8 @@ static const struct command commands[] = {
     {"submit", remote_submit, "CASE.json... [--wait]", "hand cases to the daemon, print their ids"},
     {"wait", remote_wait, "ID... [--timeout SECONDS]", "wait until jobs are finished"},
     {"get", remote_get,
-     "ID [job|summary|case|series|damping|loads|modes|section|static|stability|study|cells|map] "
+     "ID [job|summary|case|series|damping|loads|modes|section|static|stability|training|network|\n"
+     "      study|cells|map] "
      "[--csv] [--value NAME]",
      "print a result of a job as JSON (series: also CSV); default summary; of a study its state, "
      "its\n      cells or the map of a value"},

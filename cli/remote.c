@@ -240,6 +240,8 @@ static const struct document {
     {"section", "jobs", "/section"},
     {"static", "jobs", "/static"},
     {"stability", "jobs", "/stability"},
+    {"training", "jobs", "/training"},
+    {"network", "jobs", "/network"},
     {"study", "studies", ""},
     {"cells", "studies", "/cells"},
     {"map", "studies", "/map"},

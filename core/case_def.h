@@ -23,6 +23,7 @@ enum case_kind {
     CASE_STATIC,
     CASE_STABILITY,
     CASE_LOOP,
+    CASE_TRAINING, /* of a network: computed by api/training_out.c, not by a sim */
     CASE_KIND_COUNT
 };
 enum integrator { INTEGRATOR_EXPONENTIAL, INTEGRATOR_RK4_ADAPTIVE };
@@ -146,10 +147,10 @@ static inline bool case_kind_flows(enum case_kind kind)
     return kind == CASE_SIMULATION || kind == CASE_STABILITY;
 }
 
-/* Has a case of this kind a beam? All but a section in prescribed motion. */
+/* Has a case of this kind a beam? All but a section in prescribed motion and a training. */
 static inline bool case_kind_has_beam(enum case_kind kind)
 {
-    return kind != CASE_LOOP;
+    return kind != CASE_LOOP && kind != CASE_TRAINING;
 }
 
 /* Can a case of this kind have a dynamic part beside the polar? */
@@ -172,7 +173,7 @@ bool case_def_flows(const struct case_def *def);
 /* Does it have a polar, and perhaps a network? */
 static inline bool case_def_has_polar(const struct case_def *def)
 {
-    return case_def_flows(def) || def->kind == CASE_LOOP;
+    return case_def_flows(def) || !case_kind_has_beam(def->kind);
 }
 
 /* The whole definition of a case of kind loop. */

@@ -59,6 +59,12 @@ enum status sim_create_like(const struct case_def *def, const struct sim *like, 
         failure_set(fail, ST_NO_MEMORY, "", "no_memory", NULL, NULL, "no memory for the run");
         return ST_NO_MEMORY;
     }
+    if (def->kind == CASE_TRAINING) {
+        failure_set(fail, ST_INVALID, "/kind", "not_computed", "another kind", "training",
+                    "a training is a job of the daemon, or `aerom train`");
+        sim_destroy(s);
+        return ST_INVALID;
+    }
     if (!case_kind_has_beam(def->kind)) {
         s->model.def = *def;
         *out = s;

@@ -150,6 +150,34 @@ static void compute(const struct api_case *c, const struct sim_control *control,
     sim_destroy(sim);
 }
 
+static void compute_training(const struct api_case *c, const struct sim_control *control,
+                             struct run_outcome *out)
+{
+    struct failure fail = {.status = ST_OK};
+    const double start = clock_thread_cpu_s();
+    const enum status st = training_compute(c, control, &out->training, &fail);
+    const struct run_timing timing = {.cpu_s = clock_thread_cpu_s() - start};
+    if (st != ST_OK) {
+        from_failure(out, st, &fail);
+        return;
+    }
+    out->entry = training_item(out->training);
+    out->result.entry = &out->entry;
+    out->result.verdict = out->verdict;
+    out->result.cpu_s = timing.cpu_s;
+    out->result.document = out->document;
+    const char *const *name = result_documents(CASE_TRAINING);
+    for (int i = 0; name[i] != NULL; i++) {
+        out->text[i] = training_document(name[i], out->training, &timing);
+        if (out->text[i] == NULL) {
+            set_failed(out, status_name(ST_NO_MEMORY), "", status_text(ST_NO_MEMORY));
+            return;
+        }
+        out->document[i] = (struct store_document){.name = name[i], .json = out->text[i]};
+        out->result.n_document = i + 1;
+    }
+}
+
 void runner_run(const struct library *lib, const char *case_json, const struct sim_control *control,
                 struct run_outcome *out)
 {
@@ -162,7 +190,7 @@ void runner_run(const struct library *lib, const char *case_json, const struct s
     }
     const enum status st = api_case_parse(lib, case_json, strlen(case_json), "", &c, problems);
     if (st == ST_OK) {
-        compute(c, control, out);
+        (api_case_def(c)->kind == CASE_TRAINING ? compute_training : compute)(c, control, out);
     } else if (problems->count > 0) {
         /* An accepted case that no longer parses: the library or the rules have changed since. */
         from_failure(out, st, &problems->item[0]);
@@ -185,5 +213,6 @@ void run_outcome_done(struct run_outcome *out)
     free(out->block);
     free(out->chunk);
     free(out->column);
+    training_out_destroy(out->training);
     *out = (struct run_outcome){.end = RUN_DONE};
 }

@@ -6,6 +6,7 @@
 #define AEROM_SERVER_RUNNER_H
 
 #include "api/library.h"
+#include "api/training_out.h"
 #include "core/sim.h"
 #include "server/store.h"
 
@@ -26,6 +27,8 @@ struct run_outcome {
     struct store_result result;
     struct store_document document[RUN_DOCUMENTS_MAX];
     char *text[RUN_DOCUMENTS_MAX]; /* owned: the JSON of each document */
+    struct training_out *training; /* owned, kind training; entry lies in it */
+    struct shelf_item entry;
     struct store_series series;
     struct store_column *column; /* owned, as are the next two */
     struct series_chunk *chunk;  /* all columns, column by column */

@@ -231,6 +231,13 @@ enum store_status sqlite_publish(struct store_session *s, const struct store_tic
     if (st == STORE_OK) {
         st = sqlite_insert_result(s, seq, t->fence, result, now);
     }
+    if (st == STORE_OK && result->entry != NULL) {
+        struct shelf_item item = *result->entry;
+        int version = 0;
+        bool reused = false;
+        item.job = t->id;
+        st = sqlite_shelf_put(s, &item, now, &version, &reused);
+    }
     return st;
 }
 

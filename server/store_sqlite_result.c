@@ -76,10 +76,5 @@ enum store_status sqlite_insert_result(struct store_session *s, int64_t seq, int
     if (st == STORE_OK && result->series != NULL) {
         st = insert_series(s, seq, result->series);
     }
-    if (st == STORE_OK && result->entry != NULL) {
-        int version = 0;
-        bool reused = false;
-        st = sqlite_shelf_put(s, result->entry, now, &version, &reused);
-    }
     return st;
 }

@@ -1,6 +1,7 @@
 """Datasets over HTTP: uploads, what is refused of them, what is shown, and a network trained on one."""
 import csv
 import io
+import json
 import math
 import xml.etree.ElementTree
 
@@ -130,3 +131,93 @@ class Datasets(DaemonTest):
             self.assertEqual(d.request("POST", "/v1/datasets" + target, b"{",
                                        {"Content-Type": type_})[0], status)
         self.assertEqual(len(d.request("GET", "/v1/datasets")[2]["datasets"]), 1)
+
+
+def training(**more):
+    return {"schema_version": 1, "kind": "training", "name": "small net",
+            "training": {"network": "small", "dataset": "own", "polar": "flat-plate-linear",
+                         "inputs": ["delta_alpha", "alpha_rate"], "hidden": 4, "epochs": 60,
+                         "samples_max": 60, "anchors": 20, "held_share": 0.2, **more}}
+
+
+class Training(DaemonTest):
+    def test_upload_train_and_use(self):
+        """What the records have beyond the polar is 0.8 (c_l) and -0.4 (c_m) of the rate: the network
+        learns it, and the next case uses it."""
+        d = self.start().wait_ready()
+        _, _, kept = d.request("POST", "/v1/datasets", dataset())
+        job = d.submit(training())
+        self.assertEqual(d.wait(job)["state"], "done")
+        _, _, summary = d.request("GET", f"/v1/jobs/{job}/summary")
+        self.assertEqual(summary["identity"]["dataset"], {"name": "own@1", "hash": kept["hash"]})
+        self.assertEqual((summary["records"], summary["records_held"]), (6, 1))
+        self.assertLess(summary["held"]["cl_rms_of_range"], 0.005)
+        self.assertGreater(summary["held"]["cl_rms_of_range_polar"], 0.015)
+        _, _, curves = d.request("GET", f"/v1/jobs/{job}/training")
+        self.assertEqual(len(curves["curve"]["held"]), summary["epochs"] + 1)
+        self.assertEqual(min(curves["curve"]["held"]), summary["mean_square_error_held"])
+        self.assertEqual([r["name"] for r in curves["records"]],
+                         [r["name"] for r in dataset()["records"]])
+        self.assertEqual([r["part"] for r in curves["records"]].count("held"), 1)
+
+        _, _, network = d.request("GET", "/v1/networks/small")
+        self.assertEqual((network["version"], network["job"], network["hash"]),
+                         (1, job, summary["network"]["hash"]))
+        self.assertEqual(network["provenance"]["dataset_hash"], kept["hash"])
+        self.assertEqual(network["provenance"]["definition"]["seed"], 1)
+        _, _, document = d.request("GET", f"/v1/jobs/{job}/network")
+        self.assertEqual(document["w1"], network["w1"])
+
+        use = d.submit({"schema_version": 1, "kind": "loop",
+                        "aerodynamics": {"polar": "flat-plate-linear",
+                                         "dynamic": {"type": "network", "name": "small"}},
+                        "motion": {"type": "sine", "amplitude_deg": 3, "frequency_c_v": 0.1,
+                                   "cycles": 1}})
+        self.assertEqual(d.wait(use)["state"], "done")
+        _, _, series = d.request("GET", f"/v1/jobs/{use}/series?channels=cl,alpha_deg")
+        cl, alpha = (series["channels"][k]["value"] for k in ("cl", "alpha_deg"))
+        rate = math.radians(3) * 2 * math.pi * 0.1
+        self.assertAlmostEqual(cl[0], 0.8 * rate, delta=0.05 * rate)
+        self.assertAlmostEqual(cl[100], 2 * math.pi * math.radians(3), delta=0.05 * rate)
+        self.assertAlmostEqual(alpha[100], 3, delta=1e-9)
+
+        # The same definition is the same job; another seed makes the next version.
+        self.assertTrue(d.request("POST", "/v1/jobs", training())[2]["reused"])
+        second = d.submit(training(seed=2))
+        self.assertEqual(d.wait(second)["state"], "done")
+        self.assertEqual(d.request("GET", "/v1/networks/small")[2]["version"], 2)
+
+    def test_cancel_and_use_of_the_dataset(self):
+        d = self.start("--workers", "1").wait_ready()
+        d.request("POST", "/v1/datasets", dataset())
+        job = d.submit(training(optimiser="adam", epochs=100000, patience=100000, network="long"))
+        self.assertEqual(d.request("DELETE", "/v1/datasets/own")[0], 409)
+        self.assertEqual(d.request("DELETE", f"/v1/jobs/{job}")[0], 200)
+        self.assertEqual(d.wait(job)["state"], "cancelled")
+        self.assertEqual(d.request("GET", "/v1/networks/long")[0], 404)
+        self.assertEqual(d.request("DELETE", "/v1/datasets/own")[0], 204)
+
+    def test_refusals(self):
+        d = self.start().wait_ready()
+        d.request("POST", "/v1/datasets", dataset())
+        for more, pointer, code in (
+                ({"dataset": "none"}, "/training/dataset", "unknown_dataset"),
+                ({"dataset": "own@2"}, "/training/dataset", "unknown_dataset"),
+                ({"polar": "none"}, "/training/polar", "unknown_polar"),
+                ({"network": "a b"}, "/training/network", "bad_name"),
+                ({"hidden": 0}, "/training/hidden", "out_of_range"),
+                ({"optimiser": "sgd"}, "/training/optimiser", "unknown_value"),
+                ({"inputs": ["speed"]}, "/training/inputs/0", "unknown_value"),
+                ({"epochs": 1e9}, "/training/epochs", "out_of_range"),
+                ({"held_share": 1}, "/training/held_share", "out_of_range"),
+                ({"layers": 2}, "/training/layers", "unknown_key")):
+            with self.subTest(pointer=pointer):
+                status, _, problem = d.request("POST", "/v1/jobs", training(**more))
+                self.assertEqual(status, 422, problem)
+                self.assertEqual([(e["pointer"], e["code"]) for e in problem["errors"]],
+                                 [(pointer, code)])
+        # An input that never changes is found by the training itself.
+        job = d.submit(training(inputs=["alpha_rate", "plunge_rate"]))
+        done = d.wait(job)
+        self.assertEqual(done["state"], "failed")
+        self.assertIn("constant", json.dumps(done["error"]))

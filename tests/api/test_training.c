@@ -1,0 +1,142 @@
+/* Documents of a training against the schemas, and the network it leaves against a new reading. */
+#include "api/dataset.h"
+#include "api/embedded.h"
+#include "api/entry.h"
+#include "api/json.h"
+#include "api/training_out.h"
+#include "tests/api/schema_check.h"
+
+#include <cjson/cJSON.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define CASE(more)                                                                                 \
+    "{\"schema_version\":1,\"kind\":\"training\",\"training\":{\"network\":\"small\","             \
+    "\"dataset\":\"plate-4pct\",\"polar\":\"plate-4pct-channel\",\"hidden\":3,\"epochs\":3,"       \
+    "\"inputs\":[\"mean_alpha\",\"alpha_rate\"],\"samples_max\":20,\"anchors\":10" more "}}"
+
+struct fixture {
+    struct library *lib;
+    cJSON *doc;
+    struct failure_list problems;
+};
+
+static int setup(void **state)
+{
+    struct failure fail;
+    struct fixture *f = calloc(1, sizeof *f);
+    *state = f;
+    return library_create_builtin(&f->lib, &fail) == ST_OK &&
+                   json_parse(openapi_files[0].data, embedded_size(&openapi_files[0]), &f->doc,
+                              &fail) == ST_OK
+               ? 0
+               : -1;
+}
+
+static int teardown(void **state)
+{
+    struct fixture *f = *state;
+    json_free(f->doc);
+    library_destroy(f->lib);
+    free(f);
+    return 0;
+}
+
+static struct api_case *parse(struct fixture *f, const char *json)
+{
+    struct api_case *c = NULL;
+    assert_int_equal(api_case_parse(f->lib, json, strlen(json), "", &c, &f->problems), ST_OK);
+    return c;
+}
+
+static char *check(struct fixture *f, const struct training_out *t, const char *name,
+                   const char *schema)
+{
+    struct cJSON *tree = NULL;
+    struct failure fail;
+    char why[256];
+    char *text = training_document(name, t, &(const struct run_timing){.cpu_s = 0.5});
+    assert_non_null(text);
+    assert_int_equal(json_parse(text, strlen(text), &tree, &fail), ST_OK);
+    if (!schema_check(f->doc, schema_node(f->doc, schema), tree, why)) {
+        fail_msg("%s: %s in %.300s", name, why, text);
+    }
+    json_free(tree);
+    return text;
+}
+
+static void test_documents(void **state)
+{
+    struct fixture *f = *state;
+    struct failure fail;
+    struct training_out *t = NULL;
+    struct api_case *c = parse(f, CASE(""));
+    _Atomic double progress = 0.0;
+    const struct sim_control control = {.progress = &progress};
+    assert_int_equal(training_compute(c, &control, &t, &fail), ST_OK);
+    assert_true(progress == 1.0);
+    free(check(f, t, "summary", "#/components/schemas/SummaryTraining"));
+    free(check(f, t, "training", "#/components/schemas/TrainingResult"));
+    char *network = check(f, t, "network", "#/components/schemas/Network");
+    const struct shelf_item item = training_item(t);
+    assert_string_equal(item.data, network);
+    struct entry_set set = {0};
+    assert_int_equal(entry_parse(network, strlen(network), entry_read_network, &set, &f->problems),
+                     ST_OK);
+    assert_string_equal(set.network[0].def.hash, item.hash);
+    assert_int_equal(set.network[0].def.n_hidden, 3);
+    entry_set_done(&set);
+    /* The same definition, the same bits. */
+    struct training_out *again = NULL;
+    assert_int_equal(training_compute(c, NULL, &again, &fail), ST_OK);
+    assert_string_equal(training_item(again).hash, item.hash);
+    training_out_destroy(again);
+    training_out_destroy(t);
+    free(network);
+    api_case_destroy(c);
+}
+
+static void test_cancel(void **state)
+{
+    struct fixture *f = *state;
+    struct failure fail;
+    struct training_out *t = NULL;
+    struct api_case *c = parse(f, CASE(""));
+    atomic_bool cancel = true;
+    const struct sim_control control = {.cancel = &cancel};
+    assert_int_equal(training_compute(c, &control, &t, &fail), ST_CANCELLED);
+    assert_null(t);
+    api_case_destroy(c);
+}
+
+/* What the optimiser decides is filled in; what the case is known by has the dataset in it. */
+static void test_defaults(void **state)
+{
+    struct fixture *f = *state;
+    struct api_case *c = parse(f, CASE(",\"optimiser\":\"adam\""));
+    const char *text = api_case_canonical(c);
+    assert_non_null(strstr(text, "\"dataset\":\"plate-4pct@1\""));
+    assert_non_null(strstr(text, "\"patience\":200"));
+    struct api_case *again = parse(f, text);
+    assert_string_equal(api_case_hash(again), api_case_hash(c));
+    assert_string_equal(api_case_canonical(again), text);
+    struct api_case *other = parse(f, CASE(",\"optimiser\":\"adam\",\"seed\":2"));
+    assert_string_not_equal(api_case_hash(other), api_case_hash(c));
+    api_case_destroy(c);
+    api_case_destroy(again);
+    api_case_destroy(other);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
+    const struct CMUnitTest tests[] = {TEST(test_documents), TEST(test_cancel),
+                                       TEST(test_defaults)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
