@@ -173,7 +173,7 @@ void handle_map(const struct api_call *call, struct api_response *res)
     if (study == NULL) {
         return;
     }
-    struct study_map m = {.value_name = value != NULL ? value : "verdict"};
+    struct study_map m = {.value_name = value != NULL ? value : study_main_value(study)};
     study_map_axes(study, &m);
     if (!study_map_init(&m)) {
         problem_response(res, PROBLEM_INTERNAL, status_text(ST_NO_MEMORY), NULL, NULL);

@@ -43,6 +43,8 @@ struct study *study_of_job(const struct api_call *call, struct api_response *res
 void handle_study(const struct api_call *call, struct api_response *res);
 void handle_cells(const struct api_call *call, struct api_response *res);
 void handle_cell(const struct api_call *call, struct api_response *res);
+/* handle_search.c */
+void handle_search(const struct api_call *call, struct api_response *res);
 /* handle_map.c */
 void handle_map(const struct api_call *call, struct api_response *res);
 /* handle_jobs.c */

@@ -68,8 +68,15 @@ static enum status build(struct study *s, struct reader *r, bool try_cells)
 {
     struct json_out identity = {0};
     enum status st = plant_case(s);
+    study_search_define(s);
     if (st == ST_OK) {
-        st = study_axes_check(s, r);
+        st = study_search_axes(s) ? study_axes_check(s, r) : ST_NO_MEMORY;
+    }
+    if (st == ST_OK) {
+        st = study_search_check(s, r);
+    }
+    if (st == ST_OK && r->problems->total == 0) {
+        st = study_search_fill(s);
     }
     if (st == ST_OK && r->problems->total == 0 && try_cells) {
         st = study_axes_try(s, r, &identity);
@@ -98,6 +105,7 @@ static enum status read_study(const struct library *lib, const struct cJSON *tre
     const int index =
         cJSON_IsString(type) ? field_name_index(study_type_names, type->valuestring) : -1;
     s->library = lib;
+    study_search_defaults(&s->search);
     r.kind = index >= 0 ? 1u << index : STUDY_LABEL; /* without a type only what all need */
     r.context = s;
     field_read(&r, study_fields, tree, s);
@@ -198,6 +206,13 @@ enum status study_case(struct study *s, int cell, struct api_case **out,
         return ST_NO_MEMORY;
     }
     return api_case_from_tree(s->library, s->tree, "", out, problems);
+}
+
+const char *study_main_value(const struct study *s)
+{
+    return s->type == STUDY_OPTIMUM  ? "objective"
+           : study_seeks_boundary(s) ? study_boundary_name
+                                     : "verdict";
 }
 
 void study_map_axes(const struct study *s, struct study_map *out)

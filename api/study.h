@@ -14,7 +14,7 @@
 struct study;
 
 enum { STUDY_CELLS_MAX = 100000 };
-enum study_type { STUDY_GRID, STUDY_TYPE_COUNT };
+enum study_type { STUDY_GRID, STUDY_BOUNDARY, STUDY_OPTIMUM, STUDY_UNCERTAINTY, STUDY_TYPE_COUNT };
 
 /* Whether a document says that it is a study, by its "kind". */
 bool study_is_one(const struct cJSON *tree);
@@ -52,6 +52,8 @@ struct study_plan study_plan_of(const struct study *s);
 /* Cell at a place of that order; 0 <= place < study_cells. */
 int study_cell_at(const struct study *s, int place);
 
+/* The value a map shows when none is named: "verdict", "boundary" or "objective". */
+const char *study_main_value(const struct study *s);
 /* Axes and shape of a map, without values. They borrow from the study. */
 void study_map_axes(const struct study *s, struct study_map *out);
 

@@ -54,8 +54,7 @@ static void describe_children(const cJSON *of, size_t size, char *out)
     reader_join(names, size, out);
 }
 
-/* The member a pointer leads to; NULL when there is none (reported). */
-static cJSON *resolve(struct reader *r, cJSON *tree, const char *pointer)
+struct cJSON *study_resolve(struct reader *r, struct cJSON *tree, const char *pointer)
 {
     char part[64], expected[128];
     cJSON *at = tree;
@@ -82,8 +81,7 @@ static cJSON *resolve(struct reader *r, cJSON *tree, const char *pointer)
 
 /* -- checks of one axis ----------------------------------------------------------------- */
 
-/* Does a member decide anything of section, beam and modes? When in doubt it does. */
-static bool is_structural(const char *pointer)
+bool study_is_structural(const char *pointer)
 {
     static const char *const loose[] = {"/flow/",   "/aerodynamics/", "/loads/",
                                         "/output/", "/stability/",    "/solver/"};
@@ -101,8 +99,8 @@ static bool is_structural(const char *pointer)
 static enum status check_leaf(struct reader *r, const struct study *s, struct study_axis *a)
 {
     const size_t mark = reader_enter_key(r, "pointer");
-    a->leaf = resolve(r, s->tree, a->pointer);
-    a->structural = is_structural(a->pointer);
+    a->leaf = study_resolve(r, s->tree, a->pointer);
+    a->structural = study_is_structural(a->pointer);
     const bool texts = a->label != NULL;
     enum status st = ST_OK;
     if (cJSON_IsString(a->leaf)) {
@@ -203,9 +201,18 @@ static void check_dimensions(struct study *s, struct reader *r)
     s->n_cell = cells > STUDY_CELLS_MAX ? 0 : (int)cells;
 }
 
+const char *study_axes_key(const struct study *s)
+{
+    static const char *const key[] = {[STUDY_GRID] = "vary",
+                                      [STUDY_BOUNDARY] = "over",
+                                      [STUDY_OPTIMUM] = "variables",
+                                      [STUDY_UNCERTAINTY] = "tolerances"};
+    return key[s->type];
+}
+
 enum status study_axes_check(struct study *s, struct reader *r)
 {
-    const size_t mark = reader_enter_key(r, "vary");
+    const size_t mark = reader_enter_key(r, study_axes_key(s));
     enum status st = ST_OK;
     for (int i = 0; st == ST_OK && i < s->n_axis; i++) {
         struct study_axis *a = &s->axis[i];

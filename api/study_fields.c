@@ -9,7 +9,11 @@
 #include <string.h>
 
 const char *const study_kind_names[] = {"study", NULL};
-const char *const study_type_names[] = {[STUDY_GRID] = "grid", NULL};
+const char *const study_type_names[] = {[STUDY_GRID] = "grid",
+                                        [STUDY_BOUNDARY] = "boundary",
+                                        [STUDY_OPTIMUM] = "optimum",
+                                        [STUDY_UNCERTAINTY] = "uncertainty",
+                                        NULL};
 
 /* -- values of an axis ------------------------------------------------------------------ */
 
@@ -172,6 +176,59 @@ static void write_case(struct json_out *out, const void *base)
 
 #define AT(member_) offsetof(struct study, member_)
 
+static const struct field_range samples = {.min = 1, .max = STUDY_CELLS_MAX};
+static const struct field_range seeds = {.min = 0, .max = 2147483647.0};
+static const struct field_range shares = {
+    .min = 0.0, .max = 1.0, .above_min = true, .below_max = true};
+static const struct field_range starts = {.min = 1, .max = OPTIMUM_STARTS_MAX};
+static const struct field_range evaluations = {.min = 3, .max = OPTIMUM_EVALUATIONS_MAX};
+static const struct field_range tolerances = {.min = 1e-8, .max = 0.5};
+
+static const char *const sampling_names[] = {"latin_hypercube", "sobol", NULL};
+_Static_assert(SAMPLING_SOBOL == 1 && SAMPLING_METHODS == 2, "names in order");
+static const char *const method_names[] = {"cobyla", "direct", NULL};
+_Static_assert(OPTIMUM_DIRECT == 1 && OPTIMUM_METHODS == 2, "names in order");
+
+static bool is_grid(const void *base)
+{
+    return ((const struct study *)base)->type == STUDY_GRID;
+}
+
+static bool is_no_grid(const void *base)
+{
+    return !is_grid(base);
+}
+
+static bool is_boundary(const void *base)
+{
+    return ((const struct study *)base)->type == STUDY_BOUNDARY;
+}
+
+static bool is_optimum(const void *base)
+{
+    return ((const struct study *)base)->type == STUDY_OPTIMUM;
+}
+
+static bool is_uncertainty(const void *base)
+{
+    return ((const struct study *)base)->type == STUDY_UNCERTAINTY;
+}
+
+static bool has_no_field(const void *base)
+{
+    return ((const struct study *)base)->search.field.pointer[0] == '\0';
+}
+
+static bool is_maximised(const void *base)
+{
+    return ((const struct study *)base)->search.maximise[0] != '\0';
+}
+
+static bool is_minimised(const void *base)
+{
+    return !is_maximised(base);
+}
+
 static const struct field_range version = {.min = 1, .max = 1};
 
 const struct field study_fields[] = {
@@ -195,7 +252,12 @@ const struct field study_fields[] = {
      .kinds = STUDY_LABEL,
      .offset = AT(name),
      .size = sizeof((struct study *)0)->name},
-    {.key = "case", .kind = FIELD_CUSTOM, .required = true, .read = read_case, .write = write_case},
+    {.key = "case",
+     .kind = FIELD_CUSTOM,
+     .kinds = STUDY_IN_ALL | STUDY_LABEL,
+     .required = true,
+     .read = read_case,
+     .write = write_case},
     {.key = "vary",
      .kind = FIELD_LIST,
      .kinds = STUDY_IN_GRID,
@@ -206,6 +268,149 @@ const struct field study_fields[] = {
      .count = AT(n_axis),
      .min = 1,
      .max = STUDY_AXES_MAX,
-     .start = start_axis},
+     .start = start_axis,
+     .applies = is_grid},
+    {.key = "over",
+     .kind = FIELD_LIST,
+     .kinds = STUDY_IN_BOUNDARY,
+     .required = true,
+     .offset = AT(axis),
+     .size = sizeof(struct study_axis),
+     .fields = axis_fields,
+     .count = AT(n_axis),
+     .min = 1,
+     .max = STUDY_AXES_MAX,
+     .start = start_axis,
+     .applies = is_boundary},
+    {.key = "field",
+     .kind = FIELD_PART,
+     .kinds = STUDY_IN_BOUNDARY | STUDY_IN_OPTIMUM | STUDY_IN_UNCERTAINTY | STUDY_IN_SEARCH,
+     .offset = AT(search.field),
+     .fields = study_part_field,
+     .applies = is_no_grid,
+     .omit = has_no_field},
+    {.key = "criterion",
+     .kind = FIELD_PART,
+     .kinds = STUDY_IN_BOUNDARY | STUDY_IN_OPTIMUM | STUDY_IN_UNCERTAINTY | STUDY_IN_SEARCH,
+     .offset = AT(search.criterion),
+     .fields = study_part_criterion,
+     .applies = is_no_grid,
+     .omit = has_no_field},
+    {.key = "hysteresis",
+     .kind = FIELD_CUSTOM,
+     .kinds = STUDY_IN_BOUNDARY | STUDY_IN_SEARCH,
+     .read = study_read_flag,
+     .write = study_write_flag,
+     .applies = is_boundary},
+    {.key = "tolerances",
+     .kind = FIELD_LIST,
+     .kinds = STUDY_IN_UNCERTAINTY,
+     .required = true,
+     .offset = AT(search.tolerance),
+     .size = sizeof(struct study_tolerance),
+     .fields = study_part_tolerance,
+     .count = AT(search.n_tolerance),
+     .min = 1,
+     .max = STUDY_AXES_MAX,
+     .applies = is_uncertainty},
+    {.key = "result",
+     .kind = FIELD_TEXT,
+     .kinds = STUDY_IN_UNCERTAINTY,
+     .offset = AT(search.result),
+     .size = STUDY_PATH_SIZE,
+     .applies = is_uncertainty},
+    {.key = "samples",
+     .kind = FIELD_INTEGER,
+     .kinds = STUDY_IN_UNCERTAINTY,
+     .offset = AT(search.samples),
+     .range = &samples,
+     .applies = is_uncertainty},
+    {.key = "sampling",
+     .kind = FIELD_ENUM,
+     .kinds = STUDY_IN_UNCERTAINTY,
+     .offset = AT(search.method),
+     .names = sampling_names,
+     .applies = is_uncertainty},
+    {.key = "seed",
+     .kind = FIELD_INTEGER,
+     .kinds = STUDY_IN_UNCERTAINTY,
+     .offset = AT(search.seed),
+     .range = &seeds,
+     .applies = is_uncertainty},
+    {.key = "quantiles",
+     .kind = FIELD_ARRAY,
+     .kinds = STUDY_IN_UNCERTAINTY,
+     .offset = AT(search.quantile),
+     .count = AT(search.n_quantile),
+     .range = &shares,
+     .min = 1,
+     .max = STUDY_QUANTILES_MAX,
+     .applies = is_uncertainty},
+    {.key = "confidence",
+     .kind = FIELD_NUMBER,
+     .kinds = STUDY_IN_UNCERTAINTY,
+     .offset = AT(search.confidence),
+     .range = &shares,
+     .applies = is_uncertainty},
+    {.key = "variables",
+     .kind = FIELD_LIST,
+     .kinds = STUDY_IN_OPTIMUM | STUDY_IN_SEARCH,
+     .required = true,
+     .offset = AT(search.variable),
+     .size = sizeof(struct study_variable),
+     .fields = study_part_variable,
+     .count = AT(search.n_variable),
+     .min = 1,
+     .max = STUDY_AXES_MAX,
+     .start = study_start_variable,
+     .applies = is_optimum},
+    {.key = "maximise",
+     .kind = FIELD_TEXT,
+     .kinds = STUDY_IN_OPTIMUM | STUDY_IN_SEARCH,
+     .offset = AT(search.maximise),
+     .size = STUDY_PATH_SIZE,
+     .applies = is_optimum,
+     .omit = is_minimised},
+    {.key = "minimise",
+     .kind = FIELD_TEXT,
+     .kinds = STUDY_IN_OPTIMUM | STUDY_IN_SEARCH,
+     .offset = AT(search.minimise),
+     .size = STUDY_PATH_SIZE,
+     .applies = is_optimum,
+     .omit = is_maximised},
+    {.key = "constraints",
+     .kind = FIELD_LIST,
+     .kinds = STUDY_IN_OPTIMUM | STUDY_IN_SEARCH,
+     .offset = AT(search.constraint),
+     .size = sizeof(struct study_constraint),
+     .fields = study_part_constraint,
+     .count = AT(search.n_constraint),
+     .max = OPTIMUM_CONSTRAINTS_MAX / 2,
+     .start = study_start_constraint,
+     .applies = is_optimum},
+    {.key = "method",
+     .kind = FIELD_ENUM,
+     .kinds = STUDY_IN_OPTIMUM | STUDY_IN_SEARCH,
+     .offset = AT(search.optimum_method),
+     .names = method_names,
+     .applies = is_optimum},
+    {.key = "starts",
+     .kind = FIELD_INTEGER,
+     .kinds = STUDY_IN_OPTIMUM | STUDY_IN_SEARCH,
+     .offset = AT(search.optimum.starts),
+     .range = &starts,
+     .applies = is_optimum},
+    {.key = "evaluations_max",
+     .kind = FIELD_INTEGER,
+     .kinds = STUDY_IN_OPTIMUM | STUDY_IN_SEARCH,
+     .offset = AT(search.optimum.evaluations_max),
+     .range = &evaluations,
+     .applies = is_optimum},
+    {.key = "tolerance",
+     .kind = FIELD_NUMBER,
+     .kinds = STUDY_IN_OPTIMUM | STUDY_IN_SEARCH,
+     .offset = AT(search.optimum.tolerance),
+     .range = &tolerances,
+     .applies = is_optimum},
     {0},
 };

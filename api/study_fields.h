@@ -5,6 +5,7 @@
 
 #include "api/field.h"
 #include "api/study.h"
+#include "api/study_search.h"
 
 /* One varied member. */
 struct study_axis {
@@ -36,6 +37,7 @@ struct study {
     double cost_s; /* rough processor time of a cell */
     int n_axis;
     struct study_axis axis[STUDY_AXES_MAX];
+    struct study_search search;
     struct cJSON *tree; /* of `base`, with the values of the cell looked at last; owned */
     int n_dimension, shape[STUDY_AXES_MAX];
     int n_cell;
@@ -44,7 +46,15 @@ struct study {
 };
 
 /* Bits of `kinds`: the types of study, and what does not count for the identity. */
-enum study_group { STUDY_IN_GRID = 1u << STUDY_GRID, STUDY_LABEL = 1u << 8 };
+enum study_group {
+    STUDY_IN_GRID = 1u << STUDY_GRID,
+    STUDY_IN_BOUNDARY = 1u << STUDY_BOUNDARY,
+    STUDY_IN_OPTIMUM = 1u << STUDY_OPTIMUM,
+    STUDY_IN_UNCERTAINTY = 1u << STUDY_UNCERTAINTY,
+    STUDY_IN_ALL = (1u << STUDY_TYPE_COUNT) - 1u,
+    STUDY_LABEL = 1u << 8,
+    STUDY_IN_SEARCH = 1u << 9 /* what is sought in a cell */
+};
 
 extern const char *const study_kind_names[]; /* "study"; ends with NULL */
 extern const char *const study_type_names[]; /* of enum study_type */

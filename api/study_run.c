@@ -1,6 +1,8 @@
 #include "api/study_run.h"
 
+#include "api/hash.h"
 #include "api/result.h"
+#include "api/study_seek.h"
 
 #include <assert.h>
 #include <stdio.h>
@@ -49,6 +51,39 @@ void study_cell_result_done(struct study_cell_result *r)
     *r = (struct study_cell_result){.state = STUDY_CELL_PENDING};
 }
 
+/* Identity of a cell that is more than the run of its case: equal search, equal answer. */
+static enum status identify_search(const struct study_runner *r, char hash[LIMIT_HASH])
+{
+    struct json_out text = {0};
+    study_seek_identity(r->study, r->cell, &text);
+    json_string(&text, hash);
+    const enum status st = text.failed ? ST_NO_MEMORY : ST_OK;
+    if (st == ST_OK) {
+        hash_text(text.text, text.size, hash);
+    }
+    json_out_done(&text);
+    return st;
+}
+
+/* The search of the current cell, whose values stand in the tree of the study. */
+static enum status seek(struct study_runner *r, const struct sim_control *control,
+                        struct study_cell_result *out)
+{
+    struct study_evaluator e = {
+        .study = r->study, .control = control, .cpu_seconds = r->cpu_seconds};
+    char hash[LIMIT_HASH];
+    (void)snprintf(hash, sizeof hash, "%s", api_case_hash(r->c));
+    enum status st = identify_search(r, hash);
+    if (st == ST_OK) {
+        st = study_seek(&e, r->cell, out);
+    }
+    study_evaluator_done(&e);
+    if (st == ST_OK) {
+        (void)snprintf(out->hash, sizeof out->hash, "%s", hash);
+    }
+    return st;
+}
+
 enum status study_runner_begin(struct study_runner *r, int cell, char hash[LIMIT_HASH])
 {
     api_case_destroy(r->c);
@@ -60,7 +95,7 @@ enum status study_runner_begin(struct study_runner *r, int cell, char hash[LIMIT
         return st;
     }
     (void)snprintf(hash, LIMIT_HASH, "%s", st == ST_OK ? api_case_hash(r->c) : "");
-    return ST_OK;
+    return st == ST_OK && study_seeks(r->study) ? identify_search(r, hash) : ST_OK;
 }
 
 static void set_failed(struct study_cell_result *out, enum status st, const struct failure *why)
@@ -126,6 +161,9 @@ enum status study_runner_compute(struct study_runner *r, const struct sim_contro
         set_failed(&result, ST_INVALID, &r->problems->item[0]);
         *out = result;
         return ST_OK;
+    }
+    if (study_seeks(r->study)) {
+        return seek(r, control, out);
     }
     struct sim *sim = NULL;
     struct failure fail = {.status = ST_OK};

@@ -44,7 +44,7 @@ static void report_trial(const struct study *s, struct reader *r, unsigned moved
     }
     describe_trial(s, moved, sizeof trial, trial);
     json_describe(s->axis[about].leaf, sizeof got, got);
-    (void)snprintf(pointer, sizeof pointer, "/vary/%d", about);
+    (void)snprintf(pointer, sizeof pointer, "/%s/%d", study_axes_key(s), about);
     failure_set(failure_add(r->problems), ST_INVALID, pointer, why->code, why->expected, got,
                 "with %s: %s: %s", trial, why->pointer, why->detail);
 }
@@ -140,5 +140,34 @@ enum status study_axes_try(struct study *s, struct reader *r, struct json_out *i
     if (st == ST_OK && r->problems->total == 0 && s->n_dimension > 1) {
         st = try_corners(s, r, identity);
     }
+    return st;
+}
+
+enum status study_try_field(struct study *s, struct reader *r)
+{
+    const struct study_field *f = &s->search.field;
+    const double ends[] = {f->def.from, f->def.to};
+    static const char *const names[] = {"from", "to"};
+    struct failure_list *found = calloc(1, sizeof *found);
+    enum status st = found != NULL ? ST_OK : ST_NO_MEMORY;
+    for (int i = 0; st == ST_OK && i < 2; i++) {
+        struct api_case *c = NULL;
+        (void)cJSON_SetNumberHelper(f->leaf, ends[i]);
+        found->count = found->total = 0;
+        st = api_case_from_tree(s->library, s->tree, "", &c, found);
+        api_case_destroy(c);
+        if (st == ST_INVALID) {
+            const struct failure *why = &found->item[0];
+            char pointer[32], got[32];
+            (void)snprintf(pointer, sizeof pointer, "/field/%s", names[i]);
+            (void)snprintf(got, sizeof got, "%.9g", ends[i]);
+            failure_set(failure_add(r->problems), ST_INVALID, pointer, why->code, why->expected,
+                        got, "with %.120s = %.9g: %.80s: %.160s", f->pointer, ends[i], why->pointer,
+                        why->detail);
+            st = ST_OK;
+        }
+    }
+    (void)cJSON_SetNumberHelper(f->leaf, f->own_value);
+    free(found);
     return st;
 }

@@ -37,10 +37,9 @@ static const struct command commands[] = {
     {"wait", remote_wait, "ID... [--timeout SECONDS]", "wait until jobs are finished"},
     {"get", remote_get,
      "ID [job|summary|case|series|damping|loads|modes|section|static|stability|training|network|\n"
-     "      study|cells|map] "
-     "[--csv] [--value NAME]",
-     "print a result of a job as JSON (series: also CSV); default summary; of a study its state, "
-     "its\n      cells or the map of a value"},
+     "      study|cells|map|boundary|optimum|uncertainty] [--csv] [--value NAME]",
+     "print a result of a job as JSON (series and map: also CSV); default summary; of a study its "
+     "state,\n      its cells, the map of a value, or what it has found"},
     {"show", remote_show, "ID", "print the summary of a job as a table"},
     {"cancel", remote_cancel, "ID...", "cancel jobs"},
     {"list", remote_list, "[--state STATE] [--kind KIND] [--limit N] [--json]",

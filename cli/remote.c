@@ -245,6 +245,9 @@ static const struct document {
     {"study", "studies", ""},
     {"cells", "studies", "/cells"},
     {"map", "studies", "/map"},
+    {"boundary", "studies", "/boundary"},
+    {"optimum", "studies", "/optimum"},
+    {"uncertainty", "studies", "/uncertainty"},
 };
 
 static const struct document *find_document(const char *name)
@@ -265,7 +268,7 @@ int remote_get(int argc, char **argv)
         return command_usage("get");
     }
     const struct document *d = find_document(o.n_operand == 2 ? o.operand[1] : "summary");
-    if (d == NULL || (o.csv && strcmp(d->name, "series") != 0) ||
+    if (d == NULL || (o.csv && strcmp(d->name, "series") != 0 && strcmp(d->name, "map") != 0) ||
         (o.value != NULL && strcmp(d->name, "map") != 0)) {
         return command_usage("get");
     }

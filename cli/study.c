@@ -176,7 +176,7 @@ bool study_run(const struct options *o, const struct library *lib, const char *t
 {
     const char *file = o->operand[0];
     struct study *s = NULL;
-    struct study_map m = {.value_name = o->value != NULL ? o->value : "verdict"};
+    struct study_map m = {.value_name = o->value};
     bool done = false;
     struct failure_list *problems = calloc(1, sizeof *problems);
     enum status st = ST_NO_MEMORY;
@@ -186,6 +186,9 @@ bool study_run(const struct options *o, const struct library *lib, const char *t
     if (st != ST_OK) {
         report_problems(file, st, problems);
         goto out;
+    }
+    if (m.value_name == NULL) {
+        m.value_name = study_main_value(s);
     }
     study_map_axes(s, &m);
     if (!study_map_init(&m)) {

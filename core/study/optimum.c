@@ -45,9 +45,9 @@ void optimum_def_defaults(struct optimum_def *def)
 static void check_variable(const struct optimum_def *def, int i, struct failure_list *out)
 {
     char from[40], to[40], start[40];
-    (void)snprintf(from, sizeof from, "/vary/%d/from", i);
-    (void)snprintf(to, sizeof to, "/vary/%d/to", i);
-    (void)snprintf(start, sizeof start, "/vary/%d/start", i);
+    (void)snprintf(from, sizeof from, "/variables/%d/from", i);
+    (void)snprintf(to, sizeof to, "/variables/%d/to", i);
+    (void)snprintf(start, sizeof start, "/variables/%d/start", i);
     const struct range rules[] = {
         {from, def->lower[i], -HUGE_VAL, HUGE_VAL, false, false},
         {to, def->upper[i], def->lower[i], HUGE_VAL, true, false},
@@ -59,7 +59,7 @@ static void check_variable(const struct optimum_def *def, int i, struct failure_
 void optimum_def_check(const struct optimum_def *def, struct failure_list *out)
 {
     const struct range rules[] = {
-        {"/vary", def->n, 1.0, OPTIMUM_VARIABLES_MAX, false, false},
+        {"/variables", def->n, 1.0, OPTIMUM_VARIABLES_MAX, false, false},
         {"/constraints", def->n_constraint, 0.0, OPTIMUM_CONSTRAINTS_MAX, false, false},
         {"/starts", def->starts, 1.0, OPTIMUM_STARTS_MAX, false, false},
         /* COBYLA begins with one evaluation more than there are variables. */

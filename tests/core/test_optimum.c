@@ -244,7 +244,7 @@ static void bad_definitions_are_named(void **state)
     optimum_def_check(&d, list);
     assert_int_equal(list->total, 2);
     assert_string_equal(list->item[0].pointer, "/evaluations_max");
-    assert_string_equal(list->item[1].pointer, "/vary/1/to");
+    assert_string_equal(list->item[1].pointer, "/variables/1/to");
     free(list);
     assert_int_equal(optimum_method_of("direct"), OPTIMUM_DIRECT);
     assert_int_equal(optimum_method_of("newton"), OPTIMUM_METHODS);
