@@ -12,6 +12,8 @@ struct camber_line camber_line_of(const struct laminate *lam, double x0, double 
     return (struct camber_line){.on = true,
                                 .x = 0.5 * (x0 + x1),
                                 .y = 0.5 * (y0 + y1),
+                                .dx = (x1 - x0) / b,
+                                .dy = (y1 - y0) / b,
                                 .width = b,
                                 .axis = axis,
                                 .stiffness = b * (lam->d[4] - axis * lam->b[4]),

@@ -12,7 +12,7 @@
  *
  * The same clamp holds tau, by which the normals turn across against the section (flexible walls
  * and retained shears: u_s = tau (n - n0), gamma_sn = tau), and lambda, the amplitude of the
- * warping that psi' asks for in the plane of the wall (warping.lag). Plain functions; nothing is
+ * warping that bending in the plane of the wall asks for (warping.lag). Plain functions; nothing is
  * owned. */
 #ifndef AEROM_CORE_STRUCTURE_CAMBER_H
 #define AEROM_CORE_STRUCTURE_CAMBER_H

@@ -27,6 +27,7 @@ enum wall_shear { WALL_SHEAR_RIGID, WALL_SHEAR_FLEXIBLE };
 struct camber_line {
     bool on;          /* else the rest is not used */
     double x, y;      /* middle of the wall [m] */
+    double dx, dy;    /* along the wall */
     double width;     /* [m] */
     double axis;      /* n that keeps its length across when the wall bends across [m] */
     double stiffness; /* couple L_ss per kappa_ss, N_ss = 0, times the width [N m^2] */

@@ -71,7 +71,7 @@ static void build_flat(const struct contour *c, const struct laminate *laminate,
 {
     enum { WIDE = SECTION_WIDE_COUNT };
     warping_stiffness(c, laminate, w, WIDE, out->stiffness);
-    if (w->lag[S_PSI] == 0.0) {
+    if (!warping_has_lag(w)) {
         out->stiffness[num_at(S_LAG, S_LAG, WIDE)] = out->stiffness[num_at(S_PSI, S_PSI, WIDE)];
     }
     out->stiffness[num_at(S_SURPLUS, S_SURPLUS, WIDE)] +=

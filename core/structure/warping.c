@@ -180,6 +180,11 @@ static void hand_on(int k, double share, int amplitude, double *e, double *norma
     normal[k] -= share * normal[amplitude];
 }
 
+bool warping_has_lag(const struct warping *w)
+{
+    return w->lag[S_PSI] != 0.0 || w->lag[S_PHI] != 0.0;
+}
+
 void warping_wide_strains(const struct warping *w, const struct contour_element *el,
                           const struct contour_point *p, double *e, double *normal)
 {
@@ -201,12 +206,8 @@ void warping_wide_strains(const struct warping *w, const struct contour_element 
     if (w->camber.on) {
         camber_turn_rate_strain(&w->camber, e + WALL_STRAINS * (ptrdiff_t)S_TURN_RATE);
     }
-    if (w->lag[S_PSI] != 0.0) {
-        struct warping_field lag = warping_field_at(w, el, p, S_PSI);
-        lag.g -= w->follow[S_PSI] * f.g;
-        lag.g_slope -= w->follow[S_PSI] * f.g_slope;
-        lag.turn -= w->follow[S_PSI] * f.turn;
-        lag.turn_slope -= w->follow[S_PSI] * f.turn_slope;
+    if (warping_has_lag(w)) {
+        const struct warping_field lag = warping_field_at(w, el, p, WARPING_LAG);
         put_amplitude(&lag, S_LAG, S_LAG_RATE, e, normal);
         for (int k = 0; k < SECTION_STRAIN_COUNT; k++) {
             hand_on(k, w->lag[k], S_LAG, e, normal);

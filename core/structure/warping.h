@@ -25,7 +25,7 @@ enum wall_strain { W_EPS, W_GAMMA, W_KAPPA, W_TWIST }; /* order of laminate.redu
  *
  * A flat section whose clamp holds its shape (core/structure/camber.h) has more: kappa, its
  * curvature across; tau, the turn of its normals across; lambda, the amplitude of the warping that
- * psi' asks for in its plane. */
+ * bending in its plane asks for. */
 enum {
     S_CAMBER_RATE = SECTION_STRAIN_COUNT,
     S_ETA,
@@ -40,8 +40,9 @@ enum {
 };
 enum { SECTION_WARPED = S_CAMBER_RATE + 1 }; /* strains that warp the walls */
 
-/* Column of the warping that theta'' stretches. */
-enum { WARPING_VLASOV = SECTION_WARPED, WARPING_COLUMNS };
+/* Columns of the warping that theta'' stretches, and of that of a flat section which bending in its
+ * plane asks for beyond it. */
+enum { WARPING_VLASOV = SECTION_WARPED, WARPING_LAG, WARPING_COLUMNS };
 
 struct warping {
     int n_node;
@@ -58,8 +59,8 @@ struct warping {
     /* Flexible walls, retained set: part of the warping of w', psi', phi' that has the form of the
      * warping theta'' stretches, as its amplitude per unit of each [1/m per strain]. */
     double follow[3];
-    /* Flat section: part of the warping of each strain that has the form of what is left of that of
-     * psi' then. */
+    /* Flat section: part of the warping of each strain that has the form of WARPING_LAG [1/m per
+     * strain]. */
     double lag[SECTION_STRAIN_COUNT];
     /* Energy of the transverse shear gamma_nz of the walls per unit of each pair of strains, as far
      * as it is not in warping_normal_shear; zero in the classic set. */
@@ -116,6 +117,9 @@ void warping_strains(const struct warping *w, const struct contour_element *el,
  * sigma and lambda carry. */
 void warping_wide_strains(const struct warping *w, const struct contour_element *el,
                           const struct contour_point *p, double *e, double *normal);
+
+/* Is there a warping WARPING_LAG? Not where plies do not couple. */
+bool warping_has_lag(const struct warping *w);
 
 /* Either of them, by the number of strains: wall strains and gamma_nz of the first n_strain. */
 void warping_unit_strains(const struct warping *w, const struct contour_element *el,

@@ -318,20 +318,30 @@ static void find_follow(const struct contour *c, const struct laminate *lam, dou
     }
 }
 
-/* The same for what is left of the warping of psi'; chi is an amplitude by itself. None where plies
- * do not couple and the wall keeps plane in its plane. */
+/* Bending of a flat section in its plane is psi' = dx/ds, phi' = -dy/ds, and w' that leaves its
+ * middle unstrained. What is left of its warping is a column of its own, and the part of the other
+ * warpings in that form is found like the one above; chi is an amplitude by itself. None where
+ * plies do not couple and the wall keeps plane in its plane. */
 static void find_lag(const struct contour *c, const struct laminate *lam, struct warping *w)
 {
     static const int strain[] = {S_W, S_PSI, S_PHI, S_THETA2};
-    const double share = w->follow[S_PSI];
-    const double own = warping_energy(c, lam, w, S_PSI, S_PSI) -
-                       share * warping_energy(c, lam, w, WARPING_VLASOV, S_PSI);
-    double k[4];
-    warping_stiffness(c, lam, w, 2, k);
-    for (size_t i = 0; i < sizeof strain / sizeof strain[0] && own > 1e-6 * k[3]; i++) {
-        const double with = warping_energy(c, lam, w, S_PSI, strain[i]) -
-                            share * warping_energy(c, lam, w, WARPING_VLASOV, strain[i]);
-        w->lag[strain[i]] = with / own;
+    const struct camber_line *line = &c->camber;
+    const double share[3] = {line->x * line->dx + line->y * line->dy, line->dx, -line->dy};
+    const int n = w->n_value;
+    double *lag = w->g + num_at(0, WARPING_LAG, n), k[9], ei = 0.0;
+    warping_stiffness(c, lam, w, 3, k);
+    for (int i = 0; i < 3; i++) {
+        for (int q = 0; q < n; q++) {
+            lag[q] += share[i] *
+                      (w->g[num_at(q, i, n)] - w->follow[i] * w->g[num_at(q, WARPING_VLASOV, n)]);
+        }
+        for (int j = 0; j < 3; j++) {
+            ei += share[i] * k[num_at(i, j, 3)] * share[j];
+        }
+    }
+    const double own = warping_energy(c, lam, w, WARPING_LAG, WARPING_LAG);
+    for (size_t i = 0; i < sizeof strain / sizeof strain[0] && own > 1e-6 * ei; i++) {
+        w->lag[strain[i]] = warping_energy(c, lam, w, WARPING_LAG, strain[i]) / own;
     }
 }
 
