@@ -270,6 +270,42 @@ static void test_plan(void **state)
                1000, 500);
 }
 
+/* Whatever a byte of a good text becomes: a study, or problems that name a place. */
+static void test_damaged_texts(void **state)
+{
+    (void)state;
+    static const char bytes[] = "0123456789-.eE\"{}[],:/~ azAZ_\\\x80";
+    char good[TEXT], text[TEXT];
+    unsigned long long random = 1;
+    int accepted = 0, refused = 0;
+    struct failure_list *problems = calloc(1, sizeof *problems);
+    assert_non_null(problems);
+    study_text(good, "[{\"pointer\":\"" ANGLE "\",\"from\":-45,\"to\":45,\"count\":3},"
+                     "{\"pointer\":\"/aerodynamics/polar\",\"values\":[\"plate-4pct-channel\"]},"
+                     "{\"pointer\":\"/flow/speed_m_s\",\"values\":[3,4,5],\"zip\":\"a\"},"
+                     "{\"pointer\":\"/flow/incidence_deg\",\"values\":[1,2,3],\"zip\":\"a\"}]");
+    for (int i = 0; i < 1500; i++) {
+        struct study *s = NULL;
+        memcpy(text, good, sizeof text);
+        random = random * 6364136223846793005ULL + 1442695040888963407ULL;
+        text[(random >> 33) % strlen(good)] = bytes[(random >> 17) % (sizeof bytes - 1)];
+        problems->count = problems->total = 0;
+        if (study_parse(library, text, strlen(text), &s, problems) == ST_OK) {
+            assert_int_equal(problems->total, 0);
+            assert_in_range(study_cells(s), 1, STUDY_CELLS_MAX);
+            accepted++;
+            study_destroy(s);
+        } else {
+            assert_true(problems->total > 0);
+            assert_true(problems->item[0].code[0] != '\0');
+            refused++;
+        }
+    }
+    assert_true(accepted > 20);
+    assert_true(refused > 1000);
+    free(problems);
+}
+
 /* -- computed --------------------------------------------------------------------------- */
 
 static double no_clock(void)
@@ -365,6 +401,7 @@ int main(void)
         cmocka_unit_test(test_plan),
         cmocka_unit_test(test_cells_are_runs),
         cmocka_unit_test(test_a_bad_cell),
+        cmocka_unit_test(test_damaged_texts),
     };
     return cmocka_run_group_tests(tests, build_library, free_library);
 }
