@@ -159,6 +159,12 @@ static void read_case(struct reader *r, const struct cJSON *json, void *base)
         return; /* reported */
     }
     const struct case_def *def = api_case_def(c);
+    if (def->kind == CASE_TRAINING) { /* it leaves a network, not a summary to compare */
+        reader_problem(r, "unexpected", "a case of any other kind", NULL,
+                       "a study has no cases of kind \"training\"");
+        api_case_destroy(c);
+        return;
+    }
     s->case_kind = def->kind;
     s->cost_s = cost_of(def);
     memcpy(s->base_hash, api_case_hash(c), sizeof s->base_hash);

@@ -156,6 +156,11 @@ static void test_bad_documents(void **state)
     expect_refused("{\"schema_version\":1,\"kind\":\"study\",\"type\":\"grid\",\"wary\":1," VARY
                    ",\"case\":" SIMULATION "}",
                    "/wary", "unknown_key", "no such key");
+    expect_refused(
+        "{\"schema_version\":1,\"kind\":\"study\",\"type\":\"grid\"," VARY
+        ",\"case\":{\"schema_version\":1,\"kind\":\"training\",\"training\":{"
+        "\"network\":\"small\",\"dataset\":\"plate-4pct\",\"polar\":\"plate-4pct-channel\"}}}",
+        "/case", "unexpected", "training");
 }
 
 /* -- axes and cells --------------------------------------------------------------------- */
@@ -354,6 +359,36 @@ static void test_cells_are_runs(void **state)
     study_destroy(s);
 }
 
+/* A kind without a beam. */
+static void test_loops(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "{\"schema_version\":1,\"kind\":\"study\",\"type\":\"grid\",\"case\":{\"schema_version\":1,"
+        "\"kind\":\"loop\",\"aerodynamics\":{\"polar\":\"plate-4pct-channel\",\"dynamic\":"
+        "{\"type\":\"attached\"}},\"motion\":{\"type\":\"sine\",\"mean_deg\":2,\"amplitude_deg\":3,"
+        "\"frequency_c_v\":0.1,\"cycles\":2}},\"vary\":["
+        "{\"pointer\":\"/motion/mean_deg\",\"values\":[0,4]},"
+        "{\"pointer\":\"/motion/frequency_c_v\",\"values\":[0.05,0.1]}]}";
+    struct study *s = NULL;
+    struct failure_list *problems = calloc(1, sizeof *problems);
+    assert_int_equal(study_parse(library, text, strlen(text), &s, problems), ST_OK);
+    struct study_runner *r = study_runner_create(s, no_clock);
+    for (int cell = 0; cell < 4; cell++) {
+        char hash[LIMIT_HASH];
+        struct study_cell_result result;
+        assert_int_equal(study_runner_begin(r, cell, hash), ST_OK);
+        assert_int_equal(study_runner_compute(r, NULL, &result), ST_OK);
+        char *single = alone(s, cell);
+        assert_string_equal(result.summary, single);
+        free(single);
+        study_cell_result_done(&result);
+    }
+    study_runner_destroy(r);
+    study_destroy(s);
+    free(problems);
+}
+
 /* Corners are fine, a cell between them is not: it fails with its reason. */
 static void test_a_bad_cell(void **state)
 {
@@ -401,6 +436,7 @@ int main(void)
         cmocka_unit_test(test_plan),
         cmocka_unit_test(test_cells_are_runs),
         cmocka_unit_test(test_a_bad_cell),
+        cmocka_unit_test(test_loops),
         cmocka_unit_test(test_damaged_texts),
     };
     return cmocka_run_group_tests(tests, build_library, free_library);

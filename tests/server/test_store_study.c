@@ -56,7 +56,7 @@ static enum store_status publish_range(const struct fixture *f, const struct sto
                                        struct store_progress *out)
 {
     struct store_cell cell[10];
-    char hash[10][8];
+    char hash[10][24];
     for (int i = from; i < to; i++) {
         (void)snprintf(hash[i - from], sizeof hash[0], "cell%d", i);
         cell[i - from] = (struct store_cell){.cell = i,
