@@ -98,9 +98,108 @@ static void write_json(struct json_out *out, const struct job_record *job,
     json_object_end(out);
 }
 
-static void write_svg(struct json_out *out, const struct job_record *job, const struct study_map *m)
+/* -- a boundary on top ------------------------------------------------------------------ */
+
+/* The boundaries of another study as curves; owns it and its maps. */
+struct overlay {
+    struct study *study;
+    struct study_map map[2]; /* upwards and downwards */
+    struct map_curve curve[2];
+    int n_curve;
+};
+
+static void overlay_done(struct overlay *o)
 {
+    for (int i = 0; i < 2; i++) {
+        study_map_done(&o->map[i]);
+    }
+    study_destroy(o->study);
+}
+
+static void refuse_overlay(struct api_response *res, const char *id)
+{
+    static const char detail[] =
+        "the drawing needs a study of type \"boundary\" over one of its axes, of the field on "
+        "the other one";
+    struct failure_list *errors = calloc(1, sizeof *errors);
+    if (errors != NULL) {
+        failure_set(failure_add(errors), ST_INVALID, "?boundary", "unknown_value",
+                    "the id of such a study", id, "%s", detail);
+    }
+    problem_response(res, PROBLEM_BAD_QUERY, detail, errors, NULL);
+    free(errors);
+}
+
+/* Curves in the axes of the drawing; false when the study is not about these. */
+static bool place_curves(struct overlay *o, const struct map_plot *plot)
+{
+    const struct study_axis_view *over = &o->map[0].axis[0];
+    const char *field = study_field_pointer(o->study);
+    if (plot->y < 0 || field == NULL || o->map[0].n_axis != 1 || over->value == NULL) {
+        return false;
+    }
+    const char *x = plot->map->axis[plot->x].pointer, *y = plot->map->axis[plot->y].pointer;
+    const bool upright = strcmp(over->pointer, x) == 0 && strcmp(field, y) == 0;
+    if (!upright && !(strcmp(over->pointer, y) == 0 && strcmp(field, x) == 0)) {
+        return false;
+    }
+    for (int i = 0; i < 2; i++) {
+        const struct study_map *m = &o->map[i];
+        o->curve[i] = (struct map_curve){.name = i == 0 ? "boundary" : "boundary downwards",
+                                         .n = m->n_cell,
+                                         .x = upright ? over->value : m->value,
+                                         .y = upright ? m->value : over->value};
+    }
+    o->n_curve = 2; /* downwards it is empty without hysteresis */
+    return true;
+}
+
+/* Reads the study the query names; false when the answer is given. */
+static bool overlay_read(const struct api_call *call, struct api_response *res, const char *id,
+                         struct map_plot *plot, struct overlay *o)
+{
+    static const char *const names[] = {"boundary", "down.boundary"};
+    struct api_call other = *call;
+    struct job_record job;
+    struct service_study progress;
+    (void)snprintf(other.param, sizeof other.param, "%s", id);
+    if (!study_find(&other, res, &job, &progress)) {
+        return false;
+    }
+    o->study = study_of_job(&other, res, job.id);
+    if (o->study == NULL) {
+        return false;
+    }
+    enum service_status st = SERVICE_OK;
+    for (int i = 0; i < 2 && st == SERVICE_OK; i++) {
+        struct map_read read = {.seen = 0};
+        o->map[i].value_name = names[i];
+        study_map_axes(o->study, &o->map[i]);
+        st = study_map_init(&o->map[i]) ? read_cells(call->api->service, job.id, &o->map[i], &read)
+                                        : SERVICE_ERROR;
+    }
+    if (st != SERVICE_OK) {
+        respond_service(res, st, job.id);
+        return false;
+    }
+    if (!place_curves(o, plot)) {
+        refuse_overlay(res, id);
+        return false;
+    }
+    plot->n_curve = o->n_curve;
+    plot->curve = o->curve;
+    return true;
+}
+
+/* -- forms ------------------------------------------------------------------------------ */
+
+/* The drawing in *out; false when the answer is given. */
+static bool write_svg(const struct api_call *call, struct api_response *res, struct json_out *out,
+                      const struct job_record *job, const struct study_map *m)
+{
+    const char *boundary = api_query_get(call->req, "boundary");
     struct map_plot plot;
+    struct overlay overlay = {.study = NULL};
     char title[MAP_TITLE_SIZE], value[MAP_TITLE_SIZE];
     map_plot_defaults(m, &plot);
     if (job->name[0] != '\0') {
@@ -108,7 +207,12 @@ static void write_svg(struct json_out *out, const struct job_record *job, const 
         (void)snprintf(title, sizeof title, "%.100s: %.90s", job->name, value);
         plot.title = title;
     }
-    map_svg(out, &plot);
+    const bool ok = boundary == NULL || overlay_read(call, res, boundary, &plot, &overlay);
+    if (ok) {
+        map_svg(out, &plot);
+    }
+    overlay_done(&overlay);
+    return ok;
 }
 
 static void fill_map(const struct api_call *call, struct api_response *res,
@@ -123,16 +227,17 @@ static void fill_map(const struct api_call *call, struct api_response *res,
     } else {
         if (format == MAP_JSON) {
             write_json(&out, job, progress, m);
-        } else if (format == MAP_SVG) {
-            write_svg(&out, job, m);
-        } else {
+        } else if (format != MAP_SVG) {
             (format == MAP_CSV ? map_out_csv : map_out_npy)(&out, m);
+        } else if (!write_svg(call, res, &out, job, m)) {
+            return;
         }
         body = json_out_take(&out, &size);
     }
     api_response_header(res, "Vary", "Accept");
-    /* A map is final with its study; until then each answer may differ. */
-    const bool final = job->state == JOB_DONE || job->state == JOB_CANCELLED;
+    /* A map is final with its study, but not what is drawn on it. */
+    const bool final = (job->state == JOB_DONE || job->state == JOB_CANCELLED) &&
+                       api_query_get(call->req, "boundary") == NULL;
     respond_tagged(call, res, map_format_type(format),
                    final ? respond_immutable : respond_revalidate, body, size);
 }

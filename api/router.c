@@ -16,7 +16,7 @@ static const char *const dataset_query[] = {"version", "record", "format", NULL}
 static const char *const version_query[] = {"version", NULL};
 static const char *const study_list_query[] = {"state", "name", "limit", "cursor", NULL};
 static const char *const cells_query[] = {"from", "limit", NULL};
-static const char *const map_query[] = {"value", "format", NULL};
+static const char *const map_query[] = {"value", "format", "boundary", NULL};
 static const char *const series_query[] = {"channels", "from_s", "to_s", "points", "format", NULL};
 
 const struct route route_table[] = {

@@ -215,6 +215,11 @@ const char *study_main_value(const struct study *s)
                                      : "verdict";
 }
 
+const char *study_field_pointer(const struct study *s)
+{
+    return s->type == STUDY_BOUNDARY ? s->search.field.pointer : NULL;
+}
+
 void study_map_axes(const struct study *s, struct study_map *out)
 {
     out->n_dimension = s->n_dimension;

@@ -54,6 +54,8 @@ int study_cell_at(const struct study *s, int place);
 
 /* The value a map shows when none is named: "verdict", "boundary" or "objective". */
 const char *study_main_value(const struct study *s);
+/* The field whose boundary a study of that type seeks; NULL for another type. */
+const char *study_field_pointer(const struct study *s);
 /* Axes and shape of a map, without values. They borrow from the study. */
 void study_map_axes(const struct study *s, struct study_map *out);
 

@@ -61,6 +61,11 @@ class Search(DaemonTest):
         self.assertEqual(found["runs"], sum(row["evaluations"] for row in found["rows"]))
         self.assertLess(5 * found["runs"], 2 * speeds)
         print(f"{found['runs']} runs instead of {2 * speeds}")
+        over = d.request("GET", f"/v1/studies/{key}/map?format=svg&boundary={found['study']}")
+        self.assertEqual(over[0], 200)
+        self.assertIn(b"<title>boundary</title><path d=\"M", over[2])
+        status, _, why = d.request("GET", f"/v1/studies/{key}/map?format=svg&boundary={key}")
+        self.assertEqual((status, why["errors"][0]["pointer"]), (400, "?boundary"))
         key = self.post(d, critical_speed(-45, 30))
         drawing = d.request("GET", f"/v1/studies/{key}/map?format=svg")[2]
         self.assertIn(b">boundary<", drawing)
