@@ -2,6 +2,7 @@
 #include "api/dataset.h"
 #include "api/handle_shelf.h"
 #include "api/hash.h"
+#include "api/hdf5_dataset.h"
 #include "api/json.h"
 #include "api/library_set.h"
 #include "api/respond.h"
@@ -49,6 +50,20 @@ static const struct {
 } formats[FORMATS] = {{"json", "application/json", "application/json"},
                       {"csv", "text/csv", "text/csv; charset=utf-8; header=present"},
                       {"svg", "image/svg+xml", "image/svg+xml"}};
+
+/* Cuts ".json", ".csv" or ".svg" off the name of a record; FORMATS when it has none. */
+static enum format cut_format(char *record)
+{
+    for (int i = 0; i < FORMATS; i++) {
+        const size_t n = strlen(record), end = strlen(formats[i].name);
+        if (n > end + 1 && record[n - end - 1] == '.' &&
+            strcmp(record + n - end, formats[i].name) == 0) {
+            record[n - end - 1] = '\0';
+            return (enum format)i;
+        }
+    }
+    return FORMATS;
+}
 
 /* By the query, else by Accept. False when the answer is given. */
 static bool choose(const struct api_call *call, struct api_response *res, bool one_record,
@@ -141,26 +156,30 @@ static enum service_status write_item(struct json_out *out, const struct library
 static void show(const struct api_call *call, struct api_response *res, struct dataset_entry *e,
                  int version)
 {
-    const char *record = api_query_get(call->req, "record");
-    enum format format = FORMAT_JSON;
+    const bool one = call->tail[0] != '\0';
+    char record[ROUTE_PARAM_SIZE];
     struct json_out out = {0};
     size_t size = 0;
     enum service_status st = SERVICE_OK;
-    if (!choose(call, res, record != NULL, &format)) {
-        return;
-    }
-    if (record != NULL && !keep_record(e, record)) {
+    (void)snprintf(record, sizeof record, "%s", call->tail);
+    bool found = !one || keep_record(e, record);
+    enum format format = found ? FORMATS : cut_format(record);
+    found = found || keep_record(e, record);
+    if (!found) {
         char detail[400];
         (void)snprintf(detail, sizeof detail, "the dataset \"%s\" has no record \"%.200s\"",
                        e->name, record);
         problem_response(res, PROBLEM_UNKNOWN_NAME, detail, NULL, NULL);
         return;
     }
+    if (format == FORMATS && !choose(call, res, one, &format)) {
+        return;
+    }
     if (format == FORMAT_CSV) {
         dataset_write_csv(&out, e);
     } else if (format == FORMAT_SVG) {
         dataset_write_svg(&out, &e->record[0]);
-    } else if (record != NULL) {
+    } else if (one) {
         write_columns(&out, &e->record[0]);
     } else {
         st = write_item(&out, call->api->library, e, version);
@@ -248,11 +267,19 @@ static enum status read_csv(const struct api_request *req, struct dataset_entry 
     return st == ST_OK ? dataset_read_csv(req->body, req->body_size, e, problems) : st;
 }
 
+static enum status read_hdf5(const struct api_request *req, struct dataset_entry *e,
+                             struct failure_list *problems)
+{
+    const enum status st = take_query(req, e, problems);
+    return st == ST_OK ? hdf5_read_dataset(req->body, req->body_size, e, problems) : st;
+}
+
 static const struct {
     const char *type;
     enum status (*read)(const struct api_request *req, struct dataset_entry *e,
                         struct failure_list *problems);
-} readers[] = {{"application/json", read_json}, {"text/csv", read_csv}};
+} readers[] = {
+    {"application/json", read_json}, {"text/csv", read_csv}, {"application/x-hdf5", read_hdf5}};
 
 /* Canonical text and what follows from it. */
 static bool seal(struct dataset_entry *e, struct shelf_new *entry)
@@ -313,7 +340,7 @@ void handle_add_dataset(const struct api_call *call, struct api_response *res)
         }
     }
     (void)snprintf(detail, sizeof detail,
-                   "Content-Type is %.80s; send application/json or text/csv",
+                   "Content-Type is %.80s; send application/json, text/csv or application/x-hdf5",
                    call->req->content_type != NULL ? call->req->content_type : "absent");
     problem_response(res, PROBLEM_MEDIA_TYPE, detail, NULL, NULL);
 }

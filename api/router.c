@@ -12,7 +12,7 @@ enum { BODY_MAX = 1 << 20, BATCH_BODY_MAX = 16 << 20 };
 
 static const char *const list_query[] = {"kind", "state", "name", "limit", "cursor", NULL};
 static const char *const add_query[] = {"name", "description", NULL};
-static const char *const dataset_query[] = {"version", "record", "format", NULL};
+static const char *const dataset_query[] = {"version", "format", NULL};
 static const char *const version_query[] = {"version", NULL};
 static const char *const study_list_query[] = {"state", "name", "limit", "cursor", NULL};
 static const char *const cells_query[] = {"from", "limit", NULL};
@@ -60,8 +60,9 @@ const struct route route_table[] = {
     {"DELETE", "/v1/networks/{name}", handle_remove_network, version_query, NULL},
     {"POST", "/v1/datasets", handle_add_dataset, add_query, NULL},
     {"GET", "/v1/datasets", handle_datasets, NULL, NULL},
-    {"GET", "/v1/datasets/{name}", handle_dataset, dataset_query, NULL},
-    {"DELETE", "/v1/datasets/{name}", handle_remove_dataset, version_query, NULL},
+    {"GET", "/v1/datasets/{dataset}", handle_dataset, dataset_query, NULL},
+    {"GET", "/v1/datasets/{dataset}/records/{record}", handle_dataset, dataset_query, NULL},
+    {"DELETE", "/v1/datasets/{dataset}", handle_remove_dataset, version_query, NULL},
     {"GET", "/healthz", handle_health, NULL, NULL},
     {"GET", "/readyz", handle_ready, NULL, NULL},
     {"GET", "/openapi.json", handle_openapi, NULL, NULL},
