@@ -27,7 +27,7 @@ struct plan {
 static const struct plan plans[] = {
     {LM, 2, 100, 100, 25},  {LM, 4, 100, 100, 25},   {LM, 8, 100, 100, 25},
     {LM, 16, 100, 100, 25}, {LM, 25, 100, 100, 25},  {LM, 50, 100, 80, 80},
-    {LM, 100, 100, 50, 15}, {ADAM, 50, 3, 500, 500}, {LSTM, 7, 100, 250, 250},
+    {LM, 100, 100, 60, 25}, {ADAM, 50, 3, 500, 500}, {LSTM, 7, 100, 400, 400},
 };
 static const double held_share = 0.2, lstm_step = 0.08;
 /* Samples of all records together, so that the cost does not grow with their number. */
