@@ -6,6 +6,7 @@
 #define AEROM_API_STUDY_EVALUATE_H
 
 #include "api/study_fields.h"
+#include "api/study_run.h"
 #include "core/control.h"
 #include "core/sim.h"
 
@@ -13,6 +14,7 @@
 struct study_evaluator {
     struct study *study; /* borrowed */
     const struct sim_control *control;
+    const struct study_memory *memory; /* may be NULL */
     double (*cpu_seconds)(void);
     int runs;
     double cpu_s;

@@ -12,6 +12,7 @@
 struct study_runner {
     struct study *study;
     double (*cpu_seconds)(void);
+    const struct study_memory *memory;
     int cell;                      /* current one */
     struct api_case *c;            /* its case; NULL when it is not admissible */
     struct failure_list *problems; /* then why */
@@ -45,6 +46,11 @@ void study_runner_destroy(struct study_runner *r)
     }
 }
 
+void study_runner_remember(struct study_runner *r, const struct study_memory *memory)
+{
+    r->memory = memory;
+}
+
 void study_cell_result_done(struct study_cell_result *r)
 {
     free(r->summary);
@@ -70,7 +76,7 @@ static enum status seek(struct study_runner *r, const struct sim_control *contro
                         struct study_cell_result *out)
 {
     struct study_evaluator e = {
-        .study = r->study, .control = control, .cpu_seconds = r->cpu_seconds};
+        .study = r->study, .control = control, .memory = r->memory, .cpu_seconds = r->cpu_seconds};
     char hash[LIMIT_HASH];
     (void)snprintf(hash, sizeof hash, "%s", api_case_hash(r->c));
     enum status st = identify_search(r, hash);

@@ -20,10 +20,22 @@ struct study_cell_result {
 };
 void study_cell_result_done(struct study_cell_result *r);
 
+/* Answers to plain cases that a search may use and leaves behind; called on the runner's thread. */
+struct study_memory {
+    void *context;
+    /* The summary (malloc'ed) of a case with this identity; NULL when it is not known. */
+    char *(*find)(void *context, const char *hash);
+    /* A new one; the texts are borrowed for the call. */
+    void (*keep)(void *context, const char *hash, const char *verdict, const char *summary,
+                 double cpu_s);
+};
+
 /* Borrows the study, whose values it sets. `cpu_seconds` is the processor time of the running
  * thread. NULL when out of memory. */
 struct study_runner *study_runner_create(struct study *s, double (*cpu_seconds)(void));
 void study_runner_destroy(struct study_runner *r);
+/* Borrows the memory; without one searches know nothing. */
+void study_runner_remember(struct study_runner *r, const struct study_memory *memory);
 
 /* Makes a cell the current one and tells the identity of its case, "" when it is not admissible.
  * ST_NO_MEMORY or ST_OK. */

@@ -48,7 +48,7 @@ struct store_claim {
 
 /* What a finished cell leaves behind; borrowed for the call. */
 struct store_cell {
-    int cell;
+    int cell; /* -1: of none, an answer that later searches may use */
     bool reused;
     int64_t known; /* the answer that is stored already; 0 = the members below are stored */
     enum study_cell_state state;
@@ -232,6 +232,8 @@ struct store_ops {
     /* The answer to a case with this identity. STORE_NONE: it is not known. */
     enum store_status (*find_known)(struct store_session *s, const char *content_hash,
                                     struct store_known *out);
+    /* The summary (malloc'ed) of a stored answer. STORE_NONE: there is no such answer. */
+    enum store_status (*read_known)(struct store_session *s, int64_t known, char **summary);
     /* Jobs without a final state. */
     enum store_status (*depth)(struct store_session *s, int64_t *out);
     /* The id accepted last, "" when there is none. */

@@ -381,6 +381,7 @@ static const struct store_ops sqlite_ops = {
     .get_study = sqlite_get_study,
     .get_cells = sqlite_get_cells,
     .find_known = sqlite_find_known,
+    .read_known = sqlite_read_known,
     .depth = sqlite_depth,
     .newest_id = sqlite_newest_id,
     .shelf_put = sqlite_shelf_put,

@@ -134,6 +134,7 @@ enum store_status sqlite_get_cells(struct store_session *s, const char *id, int 
                                    bool summaries, struct store_cell_row **out, int *n);
 enum store_status sqlite_find_known(struct store_session *s, const char *content_hash,
                                     struct store_known *out);
+enum store_status sqlite_read_known(struct store_session *s, int64_t known, char **summary);
 enum store_status sqlite_publish(struct store_session *s, const struct store_ticket *t,
                                  const struct store_result *result, int64_t now);
 enum store_status sqlite_fail(struct store_session *s, const struct store_ticket *t,

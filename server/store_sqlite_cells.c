@@ -1,4 +1,5 @@
 /* Reads of the SQLite back end: studies and their cells. */
+#include "server/pack.h"
 #include "server/store_sqlite.h"
 
 #include <stdlib.h>
@@ -119,6 +120,28 @@ enum store_status sqlite_find_known(struct store_session *s, const char *content
         *out = known;
     } else {
         free(known.summary);
+    }
+    return st;
+}
+
+enum store_status sqlite_read_known(struct store_session *s, int64_t known, char **summary)
+{
+    char *text = NULL;
+    struct sql q = sql_begin(s, "SELECT summary, size FROM cell_result WHERE id = ?1");
+    sql_int(&q, known);
+    const bool found = sql_row(&q);
+    if (found) {
+        text = unpack_text(sqlite3_column_blob(q.stmt, 0), (size_t)sqlite3_column_bytes(q.stmt, 0),
+                           (size_t)sqlite3_column_int64(q.stmt, 1));
+    }
+    enum store_status st = sql_end(&q);
+    if (st == STORE_OK && text == NULL) {
+        st = found ? STORE_CORRUPT : STORE_NONE;
+    }
+    if (st == STORE_OK) {
+        *summary = text;
+    } else {
+        free(text);
     }
     return st;
 }

@@ -239,7 +239,7 @@ static enum store_status insert_cell(struct store_session *s, int64_t seq,
 {
     int64_t answer = c->known;
     enum store_status st = answer > 0 ? STORE_OK : insert_answer(s, c, &answer);
-    if (st != STORE_OK) {
+    if (st != STORE_OK || c->cell < 0) {
         return st;
     }
     struct sql q = sql_begin(s, "INSERT OR IGNORE INTO study_cell (study, cell, result, reused) "

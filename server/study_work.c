@@ -18,10 +18,14 @@ struct kept_cell {
     void *packed; /* owned */
 };
 
+struct unit_run;
+
 struct study_work {
     char id[JOB_ID_SIZE]; /* of the study below, "" = none */
     struct study *study;
     struct study_runner *runner;
+    struct study_memory memory; /* of the runner */
+    struct unit_run *unit;      /* the one being computed */
     int n;
     struct kept_cell kept[BATCH_MAX];
 };
@@ -163,31 +167,85 @@ static bool fill(struct kept_cell *k)
     return r->summary == NULL || k->packed != NULL;
 }
 
+/* Enters a finished cell into the batch. */
+static enum status put(struct study_work *w, const struct kept_cell *k)
+{
+    w->kept[w->n] = *k;
+    w->n++;
+    return fill(&w->kept[w->n - 1]) ? ST_OK : ST_NO_MEMORY;
+}
+
+static bool is_due(const struct unit_run *u)
+{
+    return clock_mono_us() - u->stored_us >= PUBLISH_US;
+}
+
 /* Answers the cell at the next place into the batch. */
 static enum status answer_cell(struct unit_run *u, const struct sim_control *control)
 {
     struct study_work *w = u->work;
-    struct kept_cell *k = &w->kept[w->n];
+    struct kept_cell k = {.cell = {.cell = study_cell_at(w->study, u->next)}};
     struct store_known known = {.known = 0};
     char hash[LIMIT_HASH] = "";
-    *k = (struct kept_cell){.cell = {.cell = study_cell_at(w->study, u->next)}};
-    enum status st = study_runner_begin(w->runner, k->cell.cell, hash);
+    enum status st = study_runner_begin(w->runner, k.cell.cell, hash);
     if (st != ST_OK) {
         return st;
     }
     if (look_up(u, hash, &known)) {
-        take_known(k, hash, &known);
+        take_known(&k, hash, &known);
     } else if (u->next == u->claim->next && u->claim->lost >= u->env->attempts_max) {
-        give_up(k, u->claim->lost);
+        give_up(&k, u->claim->lost);
     } else {
-        st = study_runner_compute(w->runner, control, &k->result);
+        st = study_runner_compute(w->runner, control, &k.result);
     }
-    if (st != ST_OK) {
-        return st;
+    if (st == ST_OK) {
+        u->next++;
+        st = put(w, &k);
     }
-    w->n++;
-    u->next++;
-    return fill(k) ? ST_OK : ST_NO_MEMORY;
+    return st;
+}
+
+/* -- what searches know ----------------------------------------------------------------- */
+
+/* study_memory: the answer of a cell or a job. */
+static char *find_answer(void *context, const char *hash)
+{
+    const struct study_work *w = context;
+    struct store *store = w->unit->env->store;
+    struct store_known known = {.known = 0};
+    if (!look_up(w->unit, hash, &known) || known.known == 0) {
+        return known.summary;
+    }
+    struct store_session *s = store->ops->reader_take(store);
+    if (s != NULL) {
+        (void)s->ops->read_known(s, known.known, &known.summary); /* unread: it is run again */
+        store->ops->reader_give(store, s);
+    }
+    return known.summary;
+}
+
+/* study_memory: an answer of a search under way is stored with the next batch, so that a crash
+ * costs no more of it than of cells. */
+static void keep_answer(void *context, const char *hash, const char *verdict, const char *summary,
+                        double cpu_s)
+{
+    struct study_work *w = context;
+    struct kept_cell k = {.cell = {.cell = -1},
+                          .result = {.state = STUDY_CELL_DONE, .cpu_s = cpu_s}};
+    k.result.summary = strdup(summary);
+    if (k.result.summary == NULL || !w->unit->kept) {
+        free(k.result.summary);
+        return;
+    }
+    (void)snprintf(k.result.hash, sizeof k.result.hash, "%s", hash);
+    (void)snprintf(k.result.verdict, sizeof k.result.verdict, "%s", verdict);
+    if (put(w, &k) != ST_OK) {
+        w->n--;
+        free(k.result.summary);
+    }
+    if (is_due(w->unit) || w->n == BATCH_MAX - 1) {
+        publish(w->unit, STORE_UNIT_KEEP);
+    }
 }
 
 /* -- the unit --------------------------------------------------------------------------- */
@@ -241,6 +299,8 @@ static enum status open_study(struct study_work *w, const struct worker_env *env
         forget_study(w);
         return ST_NO_MEMORY;
     }
+    w->memory = (struct study_memory){.context = w, .find = find_answer, .keep = keep_answer};
+    study_runner_remember(w->runner, &w->memory);
     (void)snprintf(w->id, sizeof w->id, "%s", claim->ticket.id);
     return ST_OK;
 }
@@ -260,9 +320,10 @@ bool study_work_unit(struct study_work *w, const struct worker_env *env, int slo
         return fail_study(env, claim, &why);
     }
     const struct sim_control control = dispatch_control(env->dispatch, slot);
+    w->unit = &u;
     while (st == ST_OK && u.kept && u.next < claim->last) {
         st = atomic_load(control.cancel) ? ST_CANCELLED : answer_cell(&u, &control);
-        const bool due = clock_mono_us() - u.stored_us >= PUBLISH_US || w->n == BATCH_MAX;
+        const bool due = is_due(&u) || w->n == BATCH_MAX;
         if (st == ST_OK && due && u.next < claim->last) {
             publish(&u, STORE_UNIT_YIELD);
         }
@@ -273,5 +334,7 @@ bool study_work_unit(struct study_work *w, const struct worker_env *env, int slo
     } else if (u.kept) {
         publish(&u, STORE_UNIT_RELEASE);
     }
+    forget_cells(w); /* of a lease that was lost in the middle of a search */
+    w->unit = NULL;
     return u.ended;
 }

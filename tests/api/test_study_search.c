@@ -184,6 +184,74 @@ static void test_evaluations_are_cases(void **state)
     study_destroy(s);
 }
 
+/* Answers in the order they were kept, and how often one was found. */
+struct answers {
+    int n, found;
+    char hash[BOUNDARY_SAMPLES_MAX][LIMIT_HASH];
+    char *summary[BOUNDARY_SAMPLES_MAX];
+};
+
+static char *find_answer(void *context, const char *hash)
+{
+    struct answers *shelf = context;
+    for (int i = 0; i < shelf->n; i++) {
+        if (strcmp(shelf->hash[i], hash) == 0) {
+            shelf->found++;
+            return strdup(shelf->summary[i]);
+        }
+    }
+    return NULL;
+}
+
+static void keep_answer(void *context, const char *hash, const char *verdict, const char *summary,
+                        double cpu_s)
+{
+    struct answers *shelf = context;
+    (void)verdict;
+    (void)cpu_s;
+    assert_true(shelf->n < BOUNDARY_SAMPLES_MAX);
+    (void)snprintf(shelf->hash[shelf->n], LIMIT_HASH, "%s", hash);
+    shelf->summary[shelf->n++] = strdup(summary);
+}
+
+/* An interrupted search is repeated with what it has left behind, and ends with the same answer. */
+static void test_what_is_known_is_not_run_again(void **state)
+{
+    (void)state;
+    struct answers shelf = {.n = 0};
+    const struct study_memory memory = {&shelf, find_answer, keep_answer};
+    char *first = NULL;
+    struct study *s = parse("boundary", MODES, OVER "," FIELD("0.2", "0.8") "," ABOVE_4_HZ);
+    for (int left = 0; left < 3; left++) { /* nothing, all, four of them known */
+        char hash[LIMIT_HASH];
+        struct study_cell_result result;
+        struct study_runner *r = study_runner_create(s, no_clock);
+        study_runner_remember(r, &memory);
+        const int before = shelf.n;
+        shelf.found = 0;
+        assert_int_equal(study_runner_begin(r, 0, hash), ST_OK);
+        assert_int_equal(study_runner_compute(r, NULL, &result), ST_OK);
+        if (first == NULL) {
+            first = strdup(result.summary);
+        }
+        assert_string_equal(result.summary, first);
+        assert_int_equal(shelf.found, before);
+        study_cell_result_done(&result);
+        study_runner_destroy(r);
+        const int whole = shelf.n;
+        shelf.n = left == 1 ? 4 : shelf.n;
+        for (int i = shelf.n; i < whole; i++) {
+            free(shelf.summary[i]);
+        }
+    }
+    assert_true(shelf.n > 5);
+    for (int i = 0; i < shelf.n; i++) {
+        free(shelf.summary[i]);
+    }
+    free(first);
+    study_destroy(s);
+}
+
 static void test_nothing_changes(void **state)
 {
     (void)state;
@@ -398,10 +466,15 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_boundary),        cmocka_unit_test(test_evaluations_are_cases),
-        cmocka_unit_test(test_nothing_changes),   cmocka_unit_test(test_sweeps),
-        cmocka_unit_test(test_samples),           cmocka_unit_test(test_an_optimum),
-        cmocka_unit_test(test_no_feasible_point), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_a_boundary),
+        cmocka_unit_test(test_evaluations_are_cases),
+        cmocka_unit_test(test_what_is_known_is_not_run_again),
+        cmocka_unit_test(test_nothing_changes),
+        cmocka_unit_test(test_sweeps),
+        cmocka_unit_test(test_samples),
+        cmocka_unit_test(test_an_optimum),
+        cmocka_unit_test(test_no_feasible_point),
+        cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, build_library, free_library);
 }

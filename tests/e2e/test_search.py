@@ -3,6 +3,7 @@ of workers, over a kill -9."""
 import glob
 import json
 import os
+import sqlite3
 import unittest
 
 import test_study
@@ -37,6 +38,14 @@ class Search(DaemonTest):
         d.stop()
         for path in glob.glob(d.store + "*"):
             os.remove(path)
+
+    @staticmethod
+    def answers(path):
+        """Time each stored answer took, by its content."""
+        db = sqlite3.connect(path)
+        rows = db.execute("SELECT content_hash, cpu_s FROM cell_result").fetchall()
+        db.close()
+        return dict(rows)
 
     def answer(self, d, study, document):
         key = self.post(d, study)
@@ -85,11 +94,20 @@ class Search(DaemonTest):
         self.forget(d)
         d = self.start("--workers", "2").wait_ready()
         key = self.post(d, study)
+        stored = {}
         for least in (1, 3):
             self.wait_cells(d, key, least)
             d.kill()
+            before = self.answers(d.store)
+            self.assertEqual({name: before[name] for name in stored}, stored)
+            stored = before
             d = self.start("--workers", "2").wait_ready()
         d.wait(key)
+        after = self.answers(d.store)
+        self.assertEqual({name: after[name] for name in stored}, stored)
+        # Every evaluation is an answer of its own beside that of its cell, also of those under way.
+        self.assertEqual(len(after), 7 + alone["runs"])
+        self.assertGreater(len(stored), 3)
         self.assertEqual(self.get(d, key, "/boundary")["rows"], alone["rows"])
         self.assertEqual(self.get(d, key)["cells"]["done"], 7)
 
