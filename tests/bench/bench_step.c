@@ -3,64 +3,15 @@
  * against plain references in the same run. Prints medians of interleaved rounds.
  *
  * Usage: bench_step [rounds] */
-#include "api/case.h"
 #include "core/num.h"
 #include "core/sim.h"
+#include "tests/bench/paper_case.h"
 
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <time.h>
 
-enum { HIDDEN = 50, INPUTS = 4, OUTPUTS = 2, STATIONS = 16, ROUNDS_MAX = 101, VARIANTS = 8 };
-
-static double cpu_now(void)
-{
-    struct timespec t;
-    (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static double random_unit(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) / 4503599627370496.0 - 1.0; /* [-1, 1) */
-}
-
-/* A network of the paper's size with small outputs: its cost is that of a trained one. */
-static void make_network(struct network_def *net)
-{
-    static double w1[INPUTS * HIDDEN], b1[HIDDEN], w2[HIDDEN * OUTPUTS], b2[OUTPUTS];
-    uint64_t seed = 1;
-    *net = (struct network_def){.name = "bench",
-                                .n_in = INPUTS,
-                                .n_hidden = HIDDEN,
-                                .n_out = OUTPUTS,
-                                .output = {NET_OUT_CL, NET_OUT_CM},
-                                .w1 = w1,
-                                .b1 = b1,
-                                .w2 = w2,
-                                .b2 = b2};
-    for (int i = 0; i < INPUTS; i++) {
-        net->input[i] = (enum network_input)i;
-        net->in_scale[i] = 0.2;
-        net->hull_min[i] = -1.0;
-        net->hull_max[i] = 1.0;
-    }
-    for (int i = 0; i < INPUTS * HIDDEN; i++) {
-        w1[i] = random_unit(&seed);
-    }
-    for (int i = 0; i < HIDDEN; i++) {
-        b1[i] = random_unit(&seed);
-    }
-    for (int i = 0; i < HIDDEN * OUTPUTS; i++) {
-        w2[i] = random_unit(&seed);
-    }
-    for (int o = 0; o < OUTPUTS; o++) {
-        net->out_scale[o] = 2e-4;
-    }
-}
+enum { STATIONS = 16, ROUNDS_MAX = 101, VARIANTS = 8 };
 
 /* Microseconds of one whole run per step, and of the steps alone. */
 static double run_once(const struct case_def *def, long *steps)
@@ -71,12 +22,12 @@ static double run_once(const struct case_def *def, long *steps)
         (void)fprintf(stderr, "%s\n", fail.detail);
         exit(1);
     }
-    const double start = cpu_now();
+    const double start = paper_cpu_now();
     if (sim_run(sim, NULL, &fail) != ST_OK) {
         (void)fprintf(stderr, "%s\n", fail.detail);
         exit(1);
     }
-    const double used = cpu_now() - start;
+    const double used = paper_cpu_now() - start;
     *steps = sim_result(sim)->steps;
     sim_destroy(sim);
     return 1e6 * used / (double)*steps;
@@ -101,18 +52,6 @@ static void plain_network(const struct network_def *d, int n, const double *x, d
     }
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(int n, double *x)
-{
-    qsort(x, (size_t)n, sizeof *x, ascending);
-    return x[n / 2];
-}
-
 static void bench_network(const struct network_def *def, int rounds)
 {
     enum { REPEAT = 2000 };
@@ -124,32 +63,31 @@ static void bench_network(const struct network_def *def, int rounds)
         exit(1);
     }
     for (int i = 0; i < STATIONS * NET_IN_COUNT; i++) {
-        x[i] = 0.1 * random_unit(&seed);
+        x[i] = 0.1 * paper_random(&seed);
     }
     double sink = 0.0;
     for (int r = 0; r < rounds; r++) {
-        double start = cpu_now();
+        double start = paper_cpu_now();
         for (int k = 0; k < REPEAT; k++) {
             x[0] = 1e-6 * k;
             (void)network_eval(net, STATIONS, x, y);
             sink += y[0];
         }
-        fast[r] = 1e9 * (cpu_now() - start) / (REPEAT * STATIONS);
-        start = cpu_now();
+        fast[r] = 1e9 * (paper_cpu_now() - start) / (REPEAT * STATIONS);
+        start = paper_cpu_now();
         for (int k = 0; k < REPEAT; k++) {
             x[0] = 1e-6 * k;
             plain_network(def, STATIONS, x, y);
             sink += y[0];
         }
-        plain[r] = 1e9 * (cpu_now() - start) / (REPEAT * STATIONS);
+        plain[r] = 1e9 * (paper_cpu_now() - start) / (REPEAT * STATIONS);
     }
     network_destroy(net);
-    const double a = median(rounds, fast), b = median(rounds, plain);
+    const double a = paper_median(rounds, fast), b = paper_median(rounds, plain);
     (void)printf("network 4-50-2        %8.1f ns/station   plain libm %8.1f   ratio %.2f%s\n", a, b,
                  b / a, sink == 0.5 ? " " : "");
 }
 
-/* Reads the shipped paper case and gives its definition three dynamic set-ups. */
 /* The same case with and without its parts. */
 static void bench_variants(const struct case_def *def, const struct network_def *net, int rounds)
 {
@@ -187,7 +125,7 @@ static void bench_variants(const struct case_def *def, const struct network_def 
                  "damping included\n",
                  variant[0].beam.elements, variant[0].solver.modes, steps, rounds);
     for (int v = 0; v < VARIANTS; v++) {
-        (void)printf("%-38s %7.2f us/step\n", row[v].label, median(rounds, us[v]));
+        (void)printf("%-38s %7.2f us/step\n", row[v].label, paper_median(rounds, us[v]));
     }
 }
 
@@ -196,30 +134,10 @@ int main(int argc, char **argv)
     int rounds = argc > 1 ? (int)strtol(argv[1], NULL, 10) : 11;
     rounds = rounds < 1 ? 1 : (rounds > ROUNDS_MAX ? ROUNDS_MAX : rounds);
     sim_process_init();
-    struct failure fail;
-    struct library *lib = NULL;
-    if (library_create_builtin(&lib, &fail) != ST_OK) {
-        (void)fprintf(stderr, "%s: %s\n", fail.pointer, fail.detail);
-        return 1;
-    }
-    const char *text = NULL, *name = NULL;
-    size_t size = 0;
-    for (int i = 0; (name = library_example_case(i, &text, &size)) != NULL; i++) {
-        if (strstr(name, "paper-beam.json") != NULL) {
-            break;
-        }
-    }
-    static struct failure_list problems;
-    struct api_case *c = NULL;
-    if (name == NULL || api_case_parse(lib, text, size, "", &c, &problems) != ST_OK) {
-        (void)fprintf(stderr, "the shipped paper case cannot be read\n");
-        return 1;
-    }
-    struct network_def net;
-    make_network(&net);
-    bench_variants(api_case_def(c), &net, rounds);
-    bench_network(&net, rounds);
-    api_case_destroy(c);
-    library_destroy(lib);
+    struct paper_case paper;
+    paper_case_read(&paper);
+    bench_variants(api_case_def(paper.parsed), &paper.network, rounds);
+    bench_network(&paper.network, rounds);
+    paper_case_done(&paper);
     return 0;
 }
