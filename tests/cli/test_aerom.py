@@ -753,6 +753,24 @@ class Daemon(unittest.TestCase):
         listed = aerom("list", "--state", "done", "--kind", "simulation", url=self.url).stdout
         self.assertIn(job_id, listed)
 
+    def test_training(self):
+        """Submitted, waited for, its documents read; a run without a daemon names the way."""
+        job_id, path = self.submit({
+            "schema_version": 1, "kind": "training",
+            "training": {"network": "cli", "dataset": "plate-4pct", "polar": "plate-4pct-channel",
+                         "inputs": ["delta_alpha", "alpha_rate"], "hidden": 2, "epochs": 2,
+                         "samples_max": 10, "anchors": 10}})
+        summary = json.loads(aerom("get", job_id, url=self.url).stdout)
+        curves = json.loads(aerom("get", job_id, "training", url=self.url).stdout)
+        self.assertEqual(len(curves["curve"]["trained"]), summary["epochs"] + 1)
+        network = json.loads(aerom("get", job_id, "network", url=self.url).stdout)
+        self.assertEqual((network["name"], network["hidden"]), ("cli", 2))
+        shown = aerom("show", job_id, url=self.url)
+        self.assertEqual(shown.returncode, 0, shown.stderr)
+        local = aerom("run", path)
+        self.assertEqual(local.returncode, 1)
+        self.assertIn("aerom train", local.stderr)
+
     def test_refused_case(self):
         path = Path(self.folder.name) / "bad.json"
         case = short_case()
