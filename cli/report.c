@@ -151,6 +151,20 @@ static void print_damping(FILE *out, const cJSON *damping, const char *signal, c
     }
 }
 
+/* Of a section in prescribed motion and of a training. */
+static void print_small_kinds(FILE *out, const cJSON *summary)
+{
+    print_numbers(out, "work fed into the motion, by rho V^2 c^2/2", member(summary, "work"));
+    print_numbers(out, "lift coefficient", member(summary, "cl"));
+    print_numbers(out, "moment coefficient", member(summary, "cm"));
+    print_number(out, "share of the steps outside the polar %.4g\n", "",
+                 member(summary, "outside_hull") != NULL ? member(summary, "outside_polar") : NULL);
+    print_number(out, "share of the steps outside the hull %.4g\n", "",
+                 member(summary, "outside_hull"));
+    print_numbers(out, "errors of the records trained", member(summary, "trained"));
+    print_numbers(out, "errors of the records held out", member(summary, "held"));
+}
+
 bool report_summary(FILE *out, const char *json, size_t size)
 {
     cJSON *summary = cJSON_ParseWithLength(json, size);
@@ -178,6 +192,7 @@ bool report_summary(FILE *out, const char *json, size_t size)
     print_numbers(out, "tip", member(summary, "tip"));
     print_numbers(out, "reactions of the clamp", member(summary, "reactions"));
     print_first_failure(out, member(summary, "first_ply_failure"));
+    print_small_kinds(out, summary);
     if (verdict == NULL) {
         print_numbers(out, "section", member(summary, "section"));
     }
