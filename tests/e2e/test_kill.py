@@ -44,6 +44,8 @@ class Kill(DaemonTest):
         d = self.start().wait_ready()
         for job in accepted:
             self.assertEqual(d.wait(job)["state"], "done")
+        for job in d.request("GET", "/v1/jobs?limit=1000")[2]["jobs"]:
+            d.wait(job["id"])  # also those whose acknowledgement was cut off
         self.assertEqual(d.stop(), 0)
         self.check_database(d.store, accepted)
 
