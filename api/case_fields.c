@@ -110,6 +110,11 @@ static bool has_network(const void *base)
     return ((const struct api_case *)base)->def.aero.dynamic == DYNAMIC_NETWORK;
 }
 
+static bool is_not_forced(const void *base)
+{
+    return !((const struct api_case *)base)->def.aero.network_forced;
+}
+
 static const struct field dynamic_fields[] = {
     CHOICE("type", def.aero.dynamic, dynamic_names, .required = true),
     {.key = "name",
@@ -118,6 +123,12 @@ static const struct field dynamic_fields[] = {
      .applies = has_network,
      .read = case_read_network,
      .write = case_write_network},
+    {.key = "force",
+     .kind = FIELD_CUSTOM,
+     .applies = has_network,
+     .omit = is_not_forced,
+     .read = case_read_force,
+     .write = case_write_force},
     {0},
 };
 

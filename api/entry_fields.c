@@ -85,6 +85,11 @@ const char *const network_input_names[] = {
     NETWORK_INPUT_LIST(INPUT_NAME)
 #undef INPUT_NAME
         [NET_IN_COUNT] = NULL};
+static const char *const base_names[] = {
+#define BASE_NAME(code, name) [code] = (name),
+    NETWORK_BASE_LIST(BASE_NAME)
+#undef BASE_NAME
+        [NETWORK_BASES] = NULL};
 const char *const network_output_names[] = {
     [NET_OUT_CL] = "cl", [NET_OUT_CM] = "cm", [NET_OUT_CD] = "cd", [NET_OUT_COUNT] = NULL};
 
@@ -228,7 +233,23 @@ const struct field polar_fields[] = {
         .rows = offsetof(struct network_entry, def.rows_)                                          \
     }
 
-/* Sizes before what has them. */
+static bool stands_on_polar(const void *base)
+{
+    return ((const struct network_entry *)base)->def.frame.base == NETWORK_ON_POLAR;
+}
+
+static bool has_no_lags(const void *base)
+{
+    return ((const struct network_entry *)base)->def.frame.n_lag == 0;
+}
+
+static bool has_no_polar(const void *base)
+{
+    return ((const struct network_entry *)base)->def.polar_hash[0] == '\0';
+}
+
+/* Sizes before what has them. What older networks do not have is not printed either: their hash
+ * stays what it was. */
 const struct field network_fields[] = {
     {.key = "name",
      .kind = FIELD_TEXT,
@@ -252,6 +273,25 @@ const struct field network_fields[] = {
      .kinds = ENTRY_TABLE,
      .offset = offsetof(struct network_entry, activation),
      .names = activation_names},
+    {.key = "polar_hash",
+     .kind = FIELD_TEXT,
+     .kinds = ENTRY_TABLE,
+     .offset = offsetof(struct network_entry, def.polar_hash),
+     .size = LIMIT_HASH,
+     .omit = has_no_polar},
+    {.key = "base",
+     .kind = FIELD_ENUM,
+     .kinds = ENTRY_TABLE,
+     .offset = offsetof(struct network_entry, def.frame.base),
+     .names = base_names,
+     .omit = stands_on_polar},
+    {.key = "lags_c_v",
+     .kind = FIELD_ARRAY,
+     .kinds = ENTRY_TABLE,
+     .offset = offsetof(struct network_entry, def.frame.lag),
+     .count = offsetof(struct network_entry, def.frame.n_lag),
+     .max = NETWORK_LAGS,
+     .omit = has_no_lags},
     NETWORK_NAMES("inputs", input, n_in, network_input_names, LIMIT_NET_INPUTS),
     NETWORK_NAMES("outputs", output, n_out, network_output_names, LIMIT_NET_OUTPUTS),
     {.key = "hidden",

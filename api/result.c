@@ -201,6 +201,10 @@ static void write_identity(struct json_out *out, const struct result_view *v)
                     polar != NULL ? polar->hash : NULL);
     write_reference(out, "network", network != NULL ? network->name : NULL,
                     network != NULL ? network->hash : NULL);
+    if (network != NULL) {
+        json_key(out, "network_forced");
+        json_boolean(out, network_def_is_of_other_polar(network, polar->hash));
+    }
     json_object_end(out);
 }
 

@@ -78,7 +78,7 @@ static bool compute(const struct free_section_def *d, struct failure_list *probl
 int free_main(int argc, char **argv)
 {
     struct options o;
-    if (!options_parse(argc, argv, "PDN", 1, -1, &o)) {
+    if (!options_parse(argc, argv, "PDNF", 1, -1, &o)) {
         return command_usage("free");
     }
     struct sources s = {0};
@@ -95,7 +95,8 @@ int free_main(int argc, char **argv)
         }
     }
     if (source_polar(o.polar, &s, problems, &def.polar) &&
-        source_dynamic(o.dynamic, o.network, &s, problems, &def.dynamic, &def.network)) {
+        source_dynamic(o.dynamic, o.network, o.force, def.polar, &s, problems, &def.dynamic,
+                       &def.network)) {
         done = compute(&def, problems);
     }
 out:

@@ -40,8 +40,9 @@ static bool print(const struct loop_result *r, double start)
                      num_deg(v[n * LOOP_ALPHA]), v[n * LOOP_PLUNGE], v[n * LOOP_CL], v[n * LOOP_CD],
                      v[n * LOOP_CM]);
     }
-    (void)printf("# work %.8f pitch %.8f plunge %.8f outside_polar %ld\n",
-                 r->work_pitch + r->work_plunge, r->work_pitch, r->work_plunge, r->outside_polar);
+    (void)printf("# work %.8f pitch %.8f plunge %.8f outside_polar %ld outside_hull %ld\n",
+                 r->work_pitch + r->work_plunge, r->work_pitch, r->work_plunge, r->outside_polar,
+                 r->outside_hull);
     return fflush(stdout) == 0 && !ferror(stdout);
 }
 
@@ -91,7 +92,7 @@ static bool compute(const struct loop_def *d, double start, struct failure_list 
 int loop_main(int argc, char **argv)
 {
     struct options o;
-    if (!options_parse(argc, argv, "PDNMmaflpye", 0, 0, &o) ||
+    if (!options_parse(argc, argv, "PDNFMmaflpye", 0, 0, &o) ||
         isnan(o.frequency) == (o.motion == NULL) || (o.motion != NULL && has_sine(&o))) {
         return command_usage("loop");
     }
@@ -113,7 +114,8 @@ int loop_main(int argc, char **argv)
         def.motion = &motion;
     }
     if (source_polar(o.polar, &s, problems, &def.polar) &&
-        source_dynamic(o.dynamic, o.network, &s, problems, &def.dynamic, &def.network)) {
+        source_dynamic(o.dynamic, o.network, o.force, def.polar, &s, problems, &def.dynamic,
+                       &def.network)) {
         done = compute(&def, start, problems);
     }
 out:

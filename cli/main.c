@@ -20,17 +20,18 @@ static const struct command commands[] = {
      "      verdict); CASE '-' reads standard input"},
     {"loop", loop_main,
      "--frequency F | --motion FILE.csv [--polar NAME|FILE.json] [--dynamic TYPE]\n"
-     "      [--network NAME|FILE.json] [--mean-deg A] [--amplitude-deg A] [--plunge W] "
+     "      [--network NAME|FILE.json [--force]] [--mean-deg A] [--amplitude-deg A] [--plunge W] "
      "[--phase-deg A]\n"
      "      [--cycles N] [--steps N]",
      "coefficients of a section in prescribed pitch and plunge, as CSV; the last line is the work"},
     {"free", free_main,
-     "NAME=VALUE... [--polar NAME|FILE.json] [--dynamic TYPE] [--network NAME|FILE.json]",
+     "NAME=VALUE... [--polar NAME|FILE.json] [--dynamic TYPE] [--network NAME|FILE.json [--force]]",
      "a section on springs, free to pitch and plunge, as CSV; the last line says how it ended"},
     {"train", train_main,
      "FOLDER --output FILE.json [--name NAME] [--description TEXT] [--polar NAME|FILE.json]\n"
-     "      [--inputs NAME,...] [--hidden N] [--optimiser lm|adam] [--epochs N] [--decay X] "
-     "[--seed N]",
+     "      [--base polar|attached|dynamic_stall] [--lags T,...] [--inputs NAME,...] [--hidden N]\n"
+     "      [--members N] [--folds N] [--samples N] [--anchors N] [--optimiser lm|adam]\n"
+     "      [--epochs N] [--decay X] [--seed N]",
      "train a network on the records of a folder like data/cfd; prints the learning curve and the\n"
      "      errors on each record, as CSV"},
     {"submit", remote_submit, "CASE.json... [--wait]", "hand cases to the daemon, print their ids"},

@@ -19,6 +19,7 @@ static const struct option long_options[] = {
     {"polar", required_argument, NULL, 'P'},
     {"dynamic", required_argument, NULL, 'D'},
     {"network", required_argument, NULL, 'N'},
+    {"force", no_argument, NULL, 'F'},
     {"motion", required_argument, NULL, 'M'},
     {"mean-deg", required_argument, NULL, 'm'},
     {"amplitude-deg", required_argument, NULL, 'a'},
@@ -31,6 +32,12 @@ static const struct option long_options[] = {
     {"name", required_argument, NULL, 'A'},
     {"description", required_argument, NULL, 'X'},
     {"inputs", required_argument, NULL, 'I'},
+    {"base", required_argument, NULL, 'B'},
+    {"lags", required_argument, NULL, 'L'},
+    {"members", required_argument, NULL, 'K'},
+    {"folds", required_argument, NULL, 'Z'},
+    {"samples", required_argument, NULL, 'Q'},
+    {"anchors", required_argument, NULL, 'U'},
     {"optimiser", required_argument, NULL, 'O'},
     {"value", required_argument, NULL, 'V'},
     {"hidden", required_argument, NULL, 'H'},
@@ -72,6 +79,10 @@ static const struct target targets[] = {
     TARGET('S', NUMBER, seed),      TARGET('w', FLAG, wait),
     TARGET('c', FLAG, csv),         TARGET('j', FLAG, json),
     TARGET('V', TEXT, value),       TARGET('x', FLAG, text),
+    TARGET('F', FLAG, force),       TARGET('B', TEXT, base),
+    TARGET('L', TEXT, lags),        TARGET('K', NUMBER, members),
+    TARGET('Z', NUMBER, folds),     TARGET('Q', NUMBER, samples),
+    TARGET('U', NUMBER, anchors),
 };
 
 static bool parse_number(const char *text, bool seconds, double *out)
@@ -126,6 +137,10 @@ bool options_parse(int argc, char **argv, const char *allowed, int least, int mo
                         .epochs = NAN,
                         .decay = NAN,
                         .seed = NAN,
+                        .members = NAN,
+                        .folds = NAN,
+                        .samples = NAN,
+                        .anchors = NAN,
                         .timeout_s = INFINITY};
     int letter = 0;
     while ((letter = getopt_long(argc, argv, "", long_options, NULL)) != -1) {

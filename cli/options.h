@@ -22,6 +22,8 @@ struct options {
     const char *name;        /* -A */
     const char *description; /* -X */
     const char *inputs;      /* -I */
+    const char *base;        /* -B */
+    const char *lags;        /* -L */
     const char *optimiser;   /* -O */
     const char *value;       /* -V */
     /* Numbers, NaN when not given. */
@@ -36,11 +38,16 @@ struct options {
     double epochs;        /* -E */
     double decay;         /* -Y */
     double seed;          /* -S */
+    double members;       /* -K */
+    double folds;         /* -Z */
+    double samples;       /* -Q */
+    double anchors;       /* -U */
     double timeout_s;     /* -t, infinite when not given */
     bool wait;            /* -w */
     bool csv;             /* -c */
     bool json;            /* -j */
     bool text;            /* -x */
+    bool force;           /* -F */
     char **operand;       /* (n_operand) */
     int n_operand;
 };

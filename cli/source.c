@@ -85,9 +85,9 @@ bool source_network(const char *name, struct sources *s, struct failure_list *pr
     return *out != NULL;
 }
 
-bool source_dynamic(const char *dynamic, const char *network, struct sources *s,
-                    struct failure_list *problems, enum dynamic_type *type,
-                    const struct network_def **out)
+bool source_dynamic(const char *dynamic, const char *network, bool force,
+                    const struct polar_def *polar, struct sources *s, struct failure_list *problems,
+                    enum dynamic_type *type, const struct network_def **out)
 {
     if (dynamic != NULL && !dynamic_type_parse(dynamic, type)) {
         (void)fprintf(stderr,
@@ -100,5 +100,18 @@ bool source_dynamic(const char *dynamic, const char *network, struct sources *s,
         (void)fprintf(stderr, "aerom: --network goes with, and only with, --dynamic network\n");
         return false;
     }
-    return network == NULL || source_network(network, s, problems, out);
+    if (network == NULL) {
+        return true;
+    }
+    if (!source_network(network, s, problems, out)) {
+        return false;
+    }
+    if (!force && network_def_is_of_other_polar(*out, polar->hash)) {
+        (void)fprintf(stderr,
+                      "aerom: --network: '%s' was trained on another polar than '%s'; --force "
+                      "takes it nevertheless\n",
+                      (*out)->name, polar->name);
+        return false;
+    }
+    return true;
 }

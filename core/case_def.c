@@ -9,6 +9,14 @@
 #include <stdio.h>
 #include <string.h>
 
+enum network_base aero_def_base(const struct aero_def *a)
+{
+    static const enum network_base base[] = {[DYNAMIC_NONE] = NETWORK_ON_POLAR,
+                                             [DYNAMIC_ATTACHED] = NETWORK_ON_ATTACHED,
+                                             [DYNAMIC_STALL] = NETWORK_ON_STALL};
+    return a->dynamic == DYNAMIC_NETWORK ? a->network->frame.base : base[a->dynamic];
+}
+
 void case_def_defaults(struct case_def *def)
 {
     *def = (struct case_def){
@@ -140,6 +148,18 @@ static void check_flow(const struct case_def *def, struct failure_list *out)
     }
 }
 
+/* A network adds to the polar it was trained on, and to no other. */
+static void check_network(const struct aero_def *a, struct failure_list *out)
+{
+    if (a->network != NULL && a->polar != NULL && !a->network_forced &&
+        network_def_is_of_other_polar(a->network, a->polar->hash)) {
+        failure_set(failure_add(out), ST_INVALID, "/aerodynamics/dynamic/name", "other_polar",
+                    "a network trained on this polar, or \"force\": true", a->network->name,
+                    "the network %s adds to another polar than %s", a->network->name,
+                    a->polar->name);
+    }
+}
+
 static void check_models(const struct aero_def *a, struct failure_list *out)
 {
     if (a->polar == NULL) {
@@ -150,6 +170,7 @@ static void check_models(const struct aero_def *a, struct failure_list *out)
         failure_set(failure_add(out), ST_INVALID, "/aerodynamics/dynamic/name", "missing",
                     "the name of a network", NULL, "the dynamic part asks for a network");
     }
+    check_network(a, out);
 }
 
 static void check_aero(const struct case_def *def, struct failure_list *out)
@@ -303,8 +324,7 @@ static void check_stability(const struct case_def *def, struct failure_list *out
     if (def->aero.dynamic == DYNAMIC_NETWORK) {
         failure_set(failure_add(out), ST_INVALID, "/aerodynamics/dynamic/type", "no_states",
                     "none, attached or dynamic_stall", "network",
-                    "a network knows the past by a sliding mean, not by states, and cannot be "
-                    "linearised: march it with kind simulation");
+                    "a network is not linearised: march it with kind simulation");
     }
     const int a_station = (def->aero.dynamic == DYNAMIC_STALL ? STALL_STATES : 0) +
                           (def->aero.dynamic == DYNAMIC_NONE ? 0 : ATTACHED_LAGS);

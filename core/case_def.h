@@ -85,6 +85,7 @@ struct aero_def {
     const struct polar_def *polar; /* borrowed */
     enum dynamic_type dynamic;
     const struct network_def *network; /* borrowed, NULL unless DYNAMIC_NETWORK */
+    bool network_forced; /* take a network that was trained on another polar, default false */
     bool lifting_line;
     enum wall_images walls;
     enum tip_correction tip; /* default TIP_INSET */
@@ -178,6 +179,9 @@ static inline bool case_def_has_polar(const struct case_def *def)
 
 /* The whole definition of a case of kind loop. */
 struct loop_def case_def_loop(const struct case_def *def);
+
+/* The model under the network of a case, or the one it has without. */
+enum network_base aero_def_base(const struct aero_def *a);
 
 /* Fills every default. */
 void case_def_defaults(struct case_def *def);

@@ -19,7 +19,14 @@ static void refuse(struct failure_list *out, const char *pointer, const char *ex
                 "%s is out of range", strrchr(pointer, '/') + 1);
 }
 
-static void check_table(const struct loop_motion *m, enum dynamic_type dynamic,
+/* Does the network see what a table does not have: a mean of the angle, or the jerk? */
+static bool wants_a_sine(const struct network_def *net)
+{
+    return network_def_uses(net, NET_IN_MEAN_ALPHA) || network_def_uses(net, NET_IN_DELTA_ALPHA) ||
+           network_def_uses(net, NET_IN_ALPHA_ACCELERATION);
+}
+
+static void check_table(const struct loop_motion *m, const struct network_def *net,
                         struct failure_list *out)
 {
     if (m->n < 2 || m->n > LOOP_SAMPLES_MAX) {
@@ -27,8 +34,9 @@ static void check_table(const struct loop_motion *m, enum dynamic_type dynamic,
     } else if (!(m->step > 0.0) || !num_all_finite(m->n * MOTION_ROWS, m->value)) {
         refuse(out, "/motion", "equal steps of time and finite values", m->step);
     }
-    if (dynamic == DYNAMIC_NETWORK) {
-        failure_set(failure_add(out), ST_INVALID, "/motion", "contradiction", NULL, NULL,
+    if (net != NULL && wants_a_sine(net)) {
+        failure_set(failure_add(out), ST_INVALID, "/motion", "contradiction",
+                    "a network without mean_alpha, delta_alpha and alpha_acceleration", net->name,
                     "the mean angle a network sees is that of a cycle: a table has none");
     }
 }
@@ -36,7 +44,7 @@ static void check_table(const struct loop_motion *m, enum dynamic_type dynamic,
 void loop_def_check(const struct loop_def *def, struct failure_list *out)
 {
     if (def->motion != NULL) {
-        check_table(def->motion, def->dynamic, out);
+        check_table(def->motion, def->network, out);
         return;
     }
     if (!(fabs(def->mean) <= NUM_PI)) {

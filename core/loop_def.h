@@ -37,8 +37,8 @@ struct loop_def {
     double frequency;                  /* f c/V, > 0 */
     int cycles;                        /* 1..LOOP_CYCLES_MAX; steady flow at t = 0 before */
     int steps;                         /* a cycle, LOOP_STEPS_MIN..LOOP_STEPS_MAX */
-    /* Instead of all six above, borrowed, NULL for none. Not with DYNAMIC_NETWORK, whose mean angle
-     * is that of a cycle. */
+    /* Instead of the six above, borrowed, NULL for none. Not with a network that sees the mean
+     * angle, which is that of a cycle, or the jerk. */
     const struct loop_motion *motion;
 };
 enum {

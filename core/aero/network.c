@@ -10,6 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Time constants of lags [c/V]. */
+static const double lag_least = 0.01, lag_most = 1000.0;
+
 /* Neurons evaluated side by side; the last group is filled up with neurons without weights. */
 enum { NETWORK_GROUP = 4 };
 
@@ -17,6 +20,7 @@ enum { NETWORK_GROUP = 4 };
 typedef int (*network_kernel_fn)(const struct network *net, int n, const double *x, double *y);
 
 struct network {
+    struct network_frame frame;
     int n_in, n_out, n_group;
     enum network_input input[LIMIT_NET_INPUTS];
     enum network_output output[LIMIT_NET_OUTPUTS];
@@ -40,6 +44,34 @@ const char *network_input_name(enum network_input input)
 {
     assert((unsigned)input < NET_IN_COUNT);
     return input_name[input];
+}
+
+static const char *const base_name[NETWORK_BASES] = {
+#define ROW(code, name) [code] = name,
+    NETWORK_BASE_LIST(ROW)
+#undef ROW
+};
+
+const char *network_base_name(enum network_base base)
+{
+    assert((unsigned)base < NETWORK_BASES);
+    return base_name[base];
+}
+
+bool network_def_uses(const struct network_def *def, enum network_input input)
+{
+    for (int i = 0; i < def->n_in; i++) {
+        if (def->input[i] == input) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool network_def_is_of_other_polar(const struct network_def *def, const char *polar_hash)
+{
+    return def->polar_hash[0] != '\0' && polar_hash[0] != '\0' &&
+           strcmp(def->polar_hash, polar_hash) != 0;
 }
 
 void network_def_done(struct network_def *def)
@@ -66,6 +98,45 @@ static void check_numbers(int n, const double *x, bool positive, const char *poi
     }
 }
 
+/* Number of the lag an input is behind, from 0; -1 for none. */
+static int lag_of(enum network_input input)
+{
+    const int in = (int)input;
+    if (in >= (int)NET_IN_ALPHA_LAG_1 && in <= (int)NET_IN_ALPHA_LAG_4) {
+        return in - (int)NET_IN_ALPHA_LAG_1;
+    }
+    return in >= (int)NET_IN_PITCH_LAG_1 && in <= (int)NET_IN_PITCH_LAG_4
+               ? in - (int)NET_IN_PITCH_LAG_1
+               : -1;
+}
+
+/* Time constants, and inputs that the network has no lag or no base for. */
+void network_def_check_frame(const struct network_def *def, const char *pointer,
+                             struct failure_list *out)
+{
+    char where[160];
+    for (int k = 0; k < def->frame.n_lag; k++) {
+        if (!(def->frame.lag[k] >= lag_least && def->frame.lag[k] <= lag_most)) {
+            (void)snprintf(where, sizeof where, "%s/lags_c_v/%d", pointer, k);
+            failure_set(failure_add(out), ST_INVALID, where, "out_of_range", "c/V, 0.01..1000",
+                        NULL, "time constant %d of the lags is not admissible", k);
+        }
+    }
+    for (int i = 0; i < def->n_in; i++) {
+        const char *name = input_name[def->input[i]];
+        (void)snprintf(where, sizeof where, "%s/inputs/%d", pointer, i);
+        if (lag_of(def->input[i]) >= def->frame.n_lag) {
+            failure_set(failure_add(out), ST_INVALID, where, "contradiction",
+                        "an input behind a lag of lags_c_v", name,
+                        "%s needs more time constants than the %d of lags_c_v", name,
+                        def->frame.n_lag);
+        } else if (def->input[i] >= NET_IN_STALL_BUBBLE && def->frame.base != NETWORK_ON_STALL) {
+            failure_set(failure_add(out), ST_INVALID, where, "contradiction",
+                        "an input that the base has", name, "%s is a state of dynamic_stall", name);
+        }
+    }
+}
+
 void network_def_check(const struct network_def *def, const char *pointer, struct failure_list *out)
 {
     check_numbers(def->n_in, def->in_offset, false, pointer, "input_offset", out);
@@ -76,6 +147,7 @@ void network_def_check(const struct network_def *def, const char *pointer, struc
     check_numbers(def->n_hidden, def->b1, false, pointer, "b1", out);
     check_numbers(def->n_hidden * def->n_out, def->w2, false, pointer, "w2", out);
     check_numbers(def->n_out, def->b2, false, pointer, "b2", out);
+    network_def_check_frame(def, pointer, out);
     for (int i = 0; i < def->n_in; i++) {
         if (!(def->hull_min[i] <= def->hull_max[i])) {
             char where[160];
@@ -148,6 +220,7 @@ enum status network_create(const struct network_def *def, struct network **out)
         free(net);
         return ST_NO_MEMORY;
     }
+    net->frame = def->frame;
     net->n_in = def->n_in;
     net->n_out = def->n_out;
     net->n_group = n_group;
@@ -176,6 +249,11 @@ void network_destroy(struct network *net)
         free(net->neuron);
         free(net);
     }
+}
+
+const struct network_frame *network_frame_of(const struct network *net)
+{
+    return &net->frame;
 }
 
 int network_eval(const struct network *net, int n, const double *x, double *y)

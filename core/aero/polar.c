@@ -17,6 +17,7 @@ struct cubic {
 struct polar {
     int n_alpha, n_plunge;
     double linear_from, linear_to;
+    struct stall_def stall;
     double steepest_fall; /* [1/rad] */
     double *alpha;        /* (n_alpha) */
     double *plunge;       /* (n_plunge) */
@@ -192,6 +193,7 @@ enum status polar_create(const struct polar_def *def, struct polar **out)
     *p = (struct polar){.n_alpha = def->n_alpha,
                         .n_plunge = def->n_plunge,
                         .linear_from = def->linear_from,
+                        .stall = def->stall,
                         .linear_to = def->linear_to,
                         .n_bucket = 4 * def->n_alpha};
     p->alpha = calloc(na + np, sizeof *p->alpha);
@@ -352,4 +354,9 @@ double polar_steepest_fall(const struct polar *p)
 bool polar_is_stalled(const struct polar *p, double alpha)
 {
     return !(alpha >= p->linear_from && alpha <= p->linear_to);
+}
+
+const struct stall_def *polar_stall(const struct polar *p)
+{
+    return &p->stall;
 }

@@ -81,6 +81,8 @@ struct polar_range {
     double from, to;
 };
 struct polar_range polar_linear_range(const struct polar *p);
+/* What the table says about dynamic stall. */
+const struct stall_def *polar_stall(const struct polar *p);
 /* True where the angle is outside the linear range. */
 bool polar_is_stalled(const struct polar *p, double alpha);
 

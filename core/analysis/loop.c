@@ -1,31 +1,26 @@
 #include "core/analysis/loop.h"
 
-#include "core/aero/attached.h"
-#include "core/aero/dynamic_stall.h"
+#include "core/aero/moving_section.h"
 #include "core/num.h"
 
 #include <assert.h>
 #include <stdlib.h>
 
-/* The units of this room. */
-static const double chord = 1.0, speed = 1.0, density = 1.0, dynamic_pressure = 0.5;
-
-/* The motion at one time and what follows from it. */
+/* The motion at one time. */
 struct state {
-    double theta, theta_rate, theta_acceleration;
-    double w, w_rate, w_acceleration, w_jerk;
+    struct moving_state motion;
+    double w_jerk;
 };
 
 static struct state state_of_table(const struct loop_motion *m, int i)
 {
     return (struct state){
-        .theta = m->value[num_at(i, MOTION_THETA, m->n)],
-        .theta_rate = m->value[num_at(i, MOTION_THETA_RATE, m->n)],
-        .theta_acceleration = m->value[num_at(i, MOTION_THETA_ACCELERATION, m->n)],
-        .w = m->value[num_at(i, MOTION_W, m->n)],
-        .w_rate = m->value[num_at(i, MOTION_W_RATE, m->n)],
-        .w_acceleration = m->value[num_at(i, MOTION_W_ACCELERATION, m->n)],
-    };
+        .motion = {.theta = m->value[num_at(i, MOTION_THETA, m->n)],
+                   .theta_rate = m->value[num_at(i, MOTION_THETA_RATE, m->n)],
+                   .theta_acceleration = m->value[num_at(i, MOTION_THETA_ACCELERATION, m->n)],
+                   .w = m->value[num_at(i, MOTION_W, m->n)],
+                   .w_rate = m->value[num_at(i, MOTION_W_RATE, m->n)],
+                   .w_acceleration = m->value[num_at(i, MOTION_W_ACCELERATION, m->n)]}};
 }
 
 static struct state state_at(const struct loop_def *d, int step)
@@ -36,15 +31,13 @@ static struct state state_at(const struct loop_def *d, int step)
     const double omega = 2.0 * NUM_PI * d->frequency;
     /* Within the cycle, so that cycles are equal to the last bit. */
     const double x = 2.0 * NUM_PI * (step % d->steps) / d->steps, y = x + d->phase;
-    return (struct state){
-        .theta = d->mean + d->amplitude * sin(x),
-        .theta_rate = d->amplitude * omega * cos(x),
-        .theta_acceleration = -d->amplitude * omega * omega * sin(x),
-        .w = d->plunge * sin(y),
-        .w_rate = d->plunge * omega * cos(y),
-        .w_acceleration = -d->plunge * omega * omega * sin(y),
-        .w_jerk = -d->plunge * omega * omega * omega * cos(y),
-    };
+    return (struct state){.motion = {.theta = d->mean + d->amplitude * sin(x),
+                                     .theta_rate = d->amplitude * omega * cos(x),
+                                     .theta_acceleration = -d->amplitude * omega * omega * sin(x),
+                                     .w = d->plunge * sin(y),
+                                     .w_rate = d->plunge * omega * cos(y),
+                                     .w_acceleration = -d->plunge * omega * omega * sin(y)},
+                          .w_jerk = -d->plunge * omega * omega * omega * cos(y)};
 }
 
 static double time_step(const struct loop_def *d)
@@ -65,16 +58,12 @@ static double weight(const struct loop_def *d, int n, int i)
 struct station {
     struct polar *polar;
     struct network *network;
-    struct attached attached;
-    struct dynamic_stall stall;
-    double wake[ATTACHED_LAGS], stall_state[STALL_ARRAYS];
-    double alpha_34; /* of the step before */
+    struct moving_section section;
 };
 
 static void station_done(struct station *s)
 {
-    dynamic_stall_done(&s->stall);
-    attached_done(&s->attached);
+    moving_section_done(&s->section);
     network_destroy(s->network);
     polar_destroy(s->polar);
 }
@@ -82,108 +71,59 @@ static void station_done(struct station *s)
 /* The caller clears up what a failure leaves half built. */
 static enum status station_init(const struct loop_def *d, struct station *s)
 {
-    const double dt = time_step(d);
+    static const struct network_frame frame[] = {[DYNAMIC_NONE] = {.base = NETWORK_ON_POLAR},
+                                                 [DYNAMIC_ATTACHED] = {.base = NETWORK_ON_ATTACHED},
+                                                 [DYNAMIC_STALL] = {.base = NETWORK_ON_STALL}};
     enum status st = polar_create(d->polar, &s->polar);
     if (st == ST_OK && d->dynamic == DYNAMIC_NETWORK) {
         st = network_create(d->network, &s->network);
     }
-    if (st == ST_OK && (d->dynamic == DYNAMIC_ATTACHED || d->dynamic == DYNAMIC_STALL)) {
-        st = attached_init(1, &chord, speed, dt, &s->attached);
-    }
-    if (st == ST_OK && d->dynamic == DYNAMIC_STALL) {
-        st = dynamic_stall_init(1, &chord, speed, dt, s->polar, &d->polar->stall, &s->stall);
-    }
-    return st;
+    return st != ST_OK
+               ? st
+               : moving_section_init(s->network != NULL ? &d->network->frame : &frame[d->dynamic],
+                                     s->polar, time_step(d), &s->section);
 }
 
-/* The angle that acts: of the chord in the relative stream, or what the wake lets act of the one at
- * three quarters of the chord. */
-static double effective_angle(struct station *s, const struct state *m, bool first)
+/* The sliding mean over a cycle that the network sees is the mean of the motion. */
+static bool add_network(struct station *s, const struct loop_def *d, const struct state *at,
+                        struct moving_value *v)
 {
-    double alpha = m->theta - m->w_rate;
-    if (s->attached.n == 0) {
-        return alpha;
-    }
-    const double alpha_34 = alpha + 0.25 * m->theta_rate;
-    if (first) {
-        attached_steady(1, &alpha_34, s->wake);
-    } else {
-        attached_step(&s->attached, &s->alpha_34, &alpha_34, s->wake);
-    }
-    s->alpha_34 = alpha_34;
-    attached_angle(1, &alpha_34, s->wake, &alpha);
-    return alpha;
-}
-
-static void add_stall(struct station *s, double alpha, const struct state *m, bool first, double *c)
-{
-    if (s->stall.n == 0) {
-        return;
-    }
-    if (first) {
-        dynamic_stall_steady(&s->stall, &alpha, &m->w, s->stall_state);
-    } else {
-        dynamic_stall_step(&s->stall, &alpha, &m->w, s->stall_state);
-    }
-    dynamic_stall_coefficients(&s->stall, &alpha, s->stall_state, &c[LOOP_CL], &c[LOOP_CD],
-                               &c[LOOP_CM]);
-}
-
-/* The sliding mean over a cycle that the network sees is the mean of the motion. One when that is
- * outside its hull, else zero. */
-static int add_network(const struct station *s, const struct loop_def *d, double alpha,
-                       const struct state *m, double *c)
-{
-    double out[NET_OUT_COUNT];
+    double out[NET_OUT_COUNT], *in = s->section.input;
+    const struct moving_state *m = &at->motion;
     if (s->network == NULL) {
-        return 0;
+        return false;
     }
-    const double in[NET_IN_COUNT] = {
-        [NET_IN_MEAN_ALPHA] = d->mean,
-        [NET_IN_DELTA_ALPHA] = alpha - d->mean,
-        [NET_IN_ALPHA_RATE] = m->theta_rate - m->w_acceleration,
-        [NET_IN_ALPHA_ACCELERATION] = m->theta_acceleration - m->w_jerk,
-        [NET_IN_PLUNGE_RATE] = m->w_rate,
-    };
-    const int outside = network_eval(s->network, 1, in, out);
-    c[LOOP_CL] += out[NET_OUT_CL];
-    c[LOOP_CD] += out[NET_OUT_CD];
-    c[LOOP_CM] += out[NET_OUT_CM];
+    in[NET_IN_MEAN_ALPHA] = d->mean;
+    in[NET_IN_DELTA_ALPHA] = in[NET_IN_ALPHA] - d->mean;
+    in[NET_IN_ALPHA_RATE] = m->theta_rate - m->w_acceleration;
+    in[NET_IN_ALPHA_ACCELERATION] = m->theta_acceleration - at->w_jerk;
+    in[NET_IN_PLUNGE_RATE] = m->w_rate;
+    const bool outside = network_eval(s->network, 1, in, out) > 0;
+    v->cl += out[NET_OUT_CL];
+    v->cd += out[NET_OUT_CD];
+    v->cm += out[NET_OUT_CM];
     return outside;
-}
-
-static void add_apparent_mass(const struct station *s, const struct state *m, double *c)
-{
-    if (s->attached.n == 0) {
-        return;
-    }
-    c[LOOP_CL] += attached_cl_rate() * m->theta_rate -
-                  attached_mass(density, chord) * m->w_acceleration / dynamic_pressure;
-    c[LOOP_CM] += attached_cm_rate() * m->theta_rate -
-                  attached_inertia(density, chord) * m->theta_acceleration / dynamic_pressure;
 }
 
 static void march(const struct loop_def *d, struct station *s, struct loop_result *r)
 {
     const double dt = time_step(d);
     for (int i = 0; i < r->n; i++) {
-        const struct state m = state_at(d, i);
-        const double alpha = effective_angle(s, &m, i == 0);
-        const struct polar_value v = polar_at(s->polar, alpha, m.w);
-        double c[LOOP_QUANTITIES] = {
-            [LOOP_TIME] = i * dt, [LOOP_ALPHA] = m.theta, [LOOP_PLUNGE] = m.w,
-            [LOOP_CL] = v.cl,     [LOOP_CD] = v.cd,       [LOOP_CM] = v.cm,
-        };
+        const struct state at = state_at(d, i);
+        const struct moving_state *m = &at.motion;
+        struct moving_value v = moving_section_step(&s->section, m, i == 0);
         r->outside_polar += v.outside;
-        add_stall(s, alpha, &m, i == 0, c);
-        r->outside_hull += add_network(s, d, alpha, &m, c);
-        add_apparent_mass(s, &m, c);
-        c[LOOP_CD] = polar_def_has_drag(d->polar) ? c[LOOP_CD] : (double)NAN;
+        r->outside_hull += add_network(s, d, &at, &v);
+        const double c[LOOP_QUANTITIES] = {
+            [LOOP_TIME] = i * dt, [LOOP_ALPHA] = m->theta,
+            [LOOP_PLUNGE] = m->w, [LOOP_CL] = v.cl,
+            [LOOP_CM] = v.cm,     [LOOP_CD] = polar_def_has_drag(d->polar) ? v.cd : (double)NAN,
+        };
         for (int k = 0; k < LOOP_QUANTITIES; k++) {
             r->value[num_at(i, k, r->n)] = c[k];
         }
-        r->work_pitch += weight(d, r->n, i) * c[LOOP_CM] * m.theta_rate * dt;
-        r->work_plunge += weight(d, r->n, i) * c[LOOP_CL] * m.w_rate * dt;
+        r->work_pitch += weight(d, r->n, i) * v.cm * m->theta_rate * dt;
+        r->work_plunge += weight(d, r->n, i) * v.cl * m->w_rate * dt;
     }
 }
 

@@ -1,29 +1,10 @@
 #include "core/coupling/loads.h"
 
+#include "core/coupling/network_increment.h"
 #include "core/num.h"
 
 #include <assert.h>
 #include <string.h>
-
-/* out (n_station) += factor * shape (n_station x n_mode) * modal (n_mode). */
-static void to_stations(const struct model *m, const double *shape, const double *modal,
-                        double factor, double *restrict out)
-{
-    for (int j = 0; j < m->n_mode; j++) {
-        const double *restrict column = shape + num_at(0, j, m->n_station);
-        const double a = factor * modal[j];
-        for (int i = 0; i < m->n_station; i++) {
-            out[i] += a * column[i];
-        }
-    }
-}
-
-static void fill(int n, double value, double *x)
-{
-    for (int i = 0; i < n; i++) {
-        x[i] = value;
-    }
-}
 
 /* alpha_s = alpha_0 + theta - v_dot/V, plunge v/c and v_dot/V; a gust acts at once where no wake
  * lags. */
@@ -37,12 +18,23 @@ static void kinematics(const struct model *m, struct workspace *w)
     for (int i = 0; i < n; i++) {
         w->plunge_rate[i] = w->imposed_plunge_rate[i] / speed;
     }
-    to_stations(m, m->station_v, w->q, 1.0, w->plunge);
-    to_stations(m, m->station_v, w->qd, 1.0 / speed, w->plunge_rate);
-    to_stations(m, m->station_theta, w->q, 1.0, w->twist);
+    stations_add(m, m->station_v, w->q, 1.0, w->plunge);
+    stations_add(m, m->station_v, w->qd, 1.0 / speed, w->plunge_rate);
+    stations_add(m, m->station_theta, w->q, 1.0, w->twist);
     for (int i = 0; i < n; i++) {
         w->alpha_geometric[i] = m->def.flow.incidence + w->twist[i] - w->plunge_rate[i] + sudden;
         w->plunge[i] /= m->chord[i];
+    }
+}
+
+/* theta_dot c/V. */
+static void pitch_rates(const struct model *m, struct workspace *w)
+{
+    const double speed = m->def.flow.speed;
+    stations_fill(w->n_station, w->root_pitch.rate / speed, w->pitch_rate);
+    stations_add(m, m->station_theta, w->qd, 1.0 / speed, w->pitch_rate);
+    for (int i = 0; i < w->n_station; i++) {
+        w->pitch_rate[i] *= m->chord[i];
     }
 }
 
@@ -70,10 +62,7 @@ static void wake_lag(const struct model *m, struct workspace *w, bool steady)
         return;
     }
     memcpy(w->alpha_34_previous, w->alpha_34, (size_t)n * sizeof *w->alpha_34);
-    fill(n, w->root_pitch.rate / m->def.flow.speed, w->pitch_rate);
-    to_stations(m, m->station_theta, w->qd, 1.0 / m->def.flow.speed, w->pitch_rate);
     for (int i = 0; i < n; i++) {
-        w->pitch_rate[i] *= m->chord[i];
         w->alpha_34[i] = w->alpha_geometric[i] + 0.25 * w->pitch_rate[i];
     }
     if (steady) {
@@ -141,87 +130,6 @@ static void induced_drag(struct workspace *w)
     }
 }
 
-/* Sliding mean over the ring; the sum is made anew each time the ring comes round, so that rounding
- * does not pile up. */
-static void advance_mean(struct workspace *w, bool steady)
-{
-    const int n = w->n_station;
-    if (steady) {
-        w->ring_count = 0;
-        w->ring_next = 0;
-        fill(n, 0.0, w->ring_sum);
-    }
-    double *slot = w->ring + num_at(0, w->ring_next, n);
-    if (w->ring_count == w->window) {
-        for (int i = 0; i < n; i++) {
-            w->ring_sum[i] -= slot[i];
-        }
-    } else {
-        w->ring_count++;
-    }
-    for (int i = 0; i < n; i++) {
-        slot[i] = w->alpha[i];
-        w->ring_sum[i] += slot[i];
-    }
-    w->ring_next++;
-    if (w->ring_next == w->window) {
-        w->ring_next = 0;
-        fill(n, 0.0, w->ring_sum);
-        for (int k = 0; k < w->window; k++) {
-            const double *row = w->ring + num_at(0, k, n);
-            for (int i = 0; i < n; i++) {
-                w->ring_sum[i] += row[i];
-            }
-        }
-    }
-}
-
-/* Section 2.3: increments from (mean alpha, alpha - mean, alpha_dot c/V, alpha_ddot c^2/V^2).
- * The rates come from the modal velocities and accelerations; only the jerk of the plunge is
- * differenced. The slow change of the induced angle is not part of the rates. */
-static void network_increment(const struct model *m, struct workspace *w, bool steady)
-{
-    if (m->network == NULL) {
-        return;
-    }
-    const int n = w->n_station;
-    const double speed = m->def.flow.speed, step = m->def.solver.time_step;
-    double *mean = w->net_in + num_at(0, NET_IN_MEAN_ALPHA, n);
-    double *delta = w->net_in + num_at(0, NET_IN_DELTA_ALPHA, n);
-    double *rate = w->net_in + num_at(0, NET_IN_ALPHA_RATE, n);
-    double *acceleration = w->net_in + num_at(0, NET_IN_ALPHA_ACCELERATION, n);
-    double jerk[LIMIT_MODES];
-    advance_mean(w, steady);
-    for (int j = 0; j < m->n_mode; j++) {
-        jerk[j] = (w->qdd[j] - w->qdd_previous[j]) / step;
-    }
-    for (int i = 0; i < n; i++) {
-        mean[i] = w->ring_sum[i] / w->ring_count;
-        delta[i] = w->alpha[i] - mean[i];
-    }
-    for (int i = 0; i < n; i++) {
-        rate[i] = w->root_pitch.rate - w->imposed_acceleration[i] / speed +
-                  (w->gust - w->gust_previous) / (speed * step);
-        acceleration[i] = w->root_pitch.acceleration;
-    }
-    to_stations(m, m->station_theta, w->qd, 1.0, rate);
-    to_stations(m, m->station_v, w->qdd, -1.0 / speed, rate);
-    to_stations(m, m->station_theta, w->qdd, 1.0, acceleration);
-    to_stations(m, m->station_v, jerk, -1.0 / speed, acceleration);
-    for (int i = 0; i < n; i++) {
-        const double time = m->chord[i] / speed;
-        rate[i] *= time;
-        acceleration[i] *= time * time;
-    }
-    memcpy(w->net_in + num_at(0, NET_IN_PLUNGE_RATE, n), w->plunge_rate, (size_t)n * sizeof *rate);
-    w->counters.outside_hull += network_eval(m->network, n, w->net_in, w->net_out);
-    for (int i = 0; i < n; i++) {
-        w->cl[i] += w->net_out[num_at(i, NET_OUT_CL, n)];
-        w->cd[i] += w->net_out[num_at(i, NET_OUT_CD, n)];
-        w->cm[i] += w->net_out[num_at(i, NET_OUT_CM, n)];
-    }
-}
-
 /* Apparent mass in phase with the pitch rate. */
 static void pitch_rate_increment(const struct model *m, struct workspace *w)
 {
@@ -244,9 +152,9 @@ static void report_apparent_mass(const struct model *m, struct workspace *w)
     const int n = w->n_station;
     double plunge[LIMIT_ELEMENTS], pitch[LIMIT_ELEMENTS];
     memcpy(plunge, w->imposed_acceleration, (size_t)n * sizeof *plunge);
-    fill(n, w->root_pitch.acceleration, pitch);
-    to_stations(m, m->station_v, w->qdd, 1.0, plunge);
-    to_stations(m, m->station_theta, w->qdd, 1.0, pitch);
+    stations_fill(n, w->root_pitch.acceleration, pitch);
+    stations_add(m, m->station_v, w->qdd, 1.0, plunge);
+    stations_add(m, m->station_theta, w->qdd, 1.0, pitch);
     for (int i = 0; i < n; i++) {
         const double density = m->def.flow.density, chord = m->chord[i];
         const double force = m->dynamic_pressure * chord;
@@ -287,6 +195,9 @@ void loads_evaluate(const struct model *m, struct workspace *w, bool steady)
 {
     assert(w->n_mode == m->n_mode);
     kinematics(m, w);
+    if (m->attached.n > 0 || m->network != NULL) {
+        pitch_rates(m, w);
+    }
     wake_lag(m, w, steady);
     solve_induced(m, w);
     steady_coefficients(m, w);

@@ -271,6 +271,30 @@ static enum status build_transfer(struct model *m)
     return ST_OK;
 }
 
+/* What the case adds to the polar. */
+static enum status build_dynamic(struct model *m)
+{
+    const struct aero_def *a = &m->def.aero;
+    const double speed = m->def.flow.speed, dt = m->def.solver.time_step;
+    const enum network_base base = aero_def_base(a);
+    enum status st = ST_OK;
+    if (a->dynamic == DYNAMIC_NETWORK) {
+        st = network_create(a->network, &m->network);
+        st = st == ST_OK ? network_lags_init(m->n_station, m->chord, speed, dt, &a->network->frame,
+                                             &m->network_lags)
+                         : st;
+    }
+    if (st == ST_OK && base == NETWORK_ON_STALL) {
+        st = dynamic_stall_init(m->n_station, m->chord, speed, dt, m->polar, &a->polar->stall,
+                                &m->stall);
+    }
+    if (st == ST_OK && base != NETWORK_ON_POLAR) {
+        st = attached_init(m->n_station, m->chord, speed, dt, &m->attached);
+        st = st == ST_OK ? apparent_mass_apply(m) : st;
+    }
+    return st;
+}
+
 enum status model_build_aero(struct model *m)
 {
     const struct aero_def *a = &m->def.aero;
@@ -280,9 +304,6 @@ enum status model_build_aero(struct model *m)
     }
     m->dynamic_pressure = 0.5 * m->def.flow.density * num_sq(m->def.flow.speed);
     enum status st = polar_create(a->polar, &m->polar);
-    if (st == ST_OK && a->dynamic == DYNAMIC_NETWORK) {
-        st = network_create(a->network, &m->network);
-    }
     if (st == ST_OK && a->lifting_line) {
         const struct wing wing = {.n = m->n_station,
                                   .length = b->length,
@@ -292,19 +313,7 @@ enum status model_build_aero(struct model *m)
                                   .tip = a->tip};
         st = lifting_line_init(&wing, a->tolerance, a->iterations_max, &m->lifting_line);
     }
-    if (st == ST_OK && a->dynamic == DYNAMIC_STALL) {
-        st = dynamic_stall_init(m->n_station, m->chord, m->def.flow.speed, m->def.solver.time_step,
-                                m->polar, &a->polar->stall, &m->stall);
-    }
-    const bool wake_lags = a->dynamic == DYNAMIC_ATTACHED || a->dynamic == DYNAMIC_STALL;
-    if (st == ST_OK && wake_lags) {
-        st = attached_init(m->n_station, m->chord, m->def.flow.speed, m->def.solver.time_step,
-                           &m->attached);
-    }
-    if (st == ST_OK && wake_lags) {
-        st = apparent_mass_apply(m);
-    }
-    return st;
+    return st == ST_OK ? build_dynamic(m) : st;
 }
 
 /* Sections, beam and modes, solved or taken over; *part and *pointer name what could not be. */
@@ -377,6 +386,7 @@ void model_done(struct model *m)
     }
     polar_destroy(m->polar);
     network_destroy(m->network);
+    network_lags_done(&m->network_lags);
     lifting_line_done(&m->lifting_line);
     attached_done(&m->attached);
     dynamic_stall_done(&m->stall);

@@ -12,10 +12,31 @@ static size_t padded(size_t n)
     return (n + ALIGN_DOUBLES - 1) / ALIGN_DOUBLES * ALIGN_DOUBLES;
 }
 
+void stations_add(const struct model *m, const double *shape, const double *modal, double factor,
+                  double *restrict out)
+{
+    for (int j = 0; j < m->n_mode; j++) {
+        const double *restrict column = shape + num_at(0, j, m->n_station);
+        const double a = factor * modal[j];
+        for (int i = 0; i < m->n_station; i++) {
+            out[i] += a * column[i];
+        }
+    }
+}
+
+void stations_fill(int n, double value, double *x)
+{
+    for (int i = 0; i < n; i++) {
+        x[i] = value;
+    }
+}
+
 /* Time steps of the sliding mean: one period of the first mode, and no more than the run has. */
 static enum status size_window(const struct model *m, int *window)
 {
-    if (m->network == NULL) {
+    const struct network_def *net = m->def.aero.network;
+    if (m->network == NULL ||
+        !(network_def_uses(net, NET_IN_MEAN_ALPHA) || network_def_uses(net, NET_IN_DELTA_ALPHA))) {
         return ST_OK;
     }
     const double period = 2.0 * NUM_PI / m->modes.omega[0];
@@ -54,8 +75,8 @@ static enum status allocate(const struct model *m, struct workspace *w)
         {&w->alpha, ns},
         {&w->induced, ns},
         {&w->stall, m->stall.n > 0 ? ns * STALL_ARRAYS : 0},
-        {&w->net_in, ns * NET_IN_COUNT},
-        {&w->net_out, ns * NET_OUT_COUNT},
+        {&w->net_in, m->network != NULL ? ns * NET_IN_COUNT : 0},
+        {&w->net_out, m->network != NULL ? ns * NET_OUT_COUNT : 0},
         {&w->cl, ns},
         {&w->cd, ns},
         {&w->cm, ns},

@@ -29,7 +29,7 @@ struct workspace {
     double *imposed_plunge_rate;  /* of v_dot [m/s] */
     double *imposed_acceleration; /* of v_ddot [m/s^2] */
     double *alpha_geometric;      /* alpha_0 + theta - v_dot/V [rad] */
-    double *pitch_rate;           /* theta_dot c/V, with a wake that lags */
+    double *pitch_rate;           /* theta_dot c/V, with a wake that lags or a network */
     double *alpha_34;             /* at three quarters of the chord, with a wake that lags [rad] */
     double *alpha_34_previous;    /* one time step earlier */
     double *wake;                 /* states of the wake's lag (n_station x ATTACHED_LAGS) [rad] */
@@ -38,7 +38,8 @@ struct workspace {
     double *alpha;                /* effective: less the induced angle [rad] */
     double *induced;              /* w_i/V [rad] */
     double *stall;                /* states of stall and their targets (n_station x STALL_ARRAYS) */
-    double *net_in;               /* inputs of the network  (n_station x NET_IN_COUNT) */
+    double *net_in;               /* inputs of the network, its lags among them (n_station x
+                                     NET_IN_COUNT) */
     double *net_out;              /* increments of c_l c_m c_d (n_station x NET_OUT_COUNT) */
     double *cl, *cd, *cm;         /* total coefficients; cd holds profile and induced drag */
     double *force_x;              /* per length, towards the leading edge [N/m] */
@@ -48,7 +49,7 @@ struct workspace {
     /* sliding mean of the angle of attack: ring of the last `window` steps */
     int window; /* one period of the first mode in time steps */
     int ring_count, ring_next;
-    double *ring;     /* (n_station x window), only with a network */
+    double *ring;     /* (n_station x window), only with a network that sees the mean */
     double *ring_sum; /* (n_station) */
 
     double *load;                           /* modal loads (n_mode) */
@@ -73,5 +74,10 @@ struct workspace {
  * time steps in a period of the first mode. */
 MUST_CHECK enum status workspace_init(const struct model *m, struct workspace *out);
 void workspace_done(struct workspace *w);
+
+/* out (n_station) += factor * shape (n_station x n_mode) * modal (n_mode). */
+void stations_add(const struct model *m, const double *shape, const double *modal, double factor,
+                  double *restrict out);
+void stations_fill(int n, double value, double *x);
 
 #endif

@@ -103,14 +103,15 @@ enum status assess_record(const struct flow_record *r, double window, const stru
     int outside = 0;
     flow_record_inputs(r, window, x);
     flow_record_steady(r, polar, steady);
-    for (int i = first; i < r->n; i++) {
-        double *y = model + num_at(0, i, NET_OUT_COUNT);
-        outside += network_eval(net, 1, x + num_at(0, i, NET_IN_COUNT), y);
+    enum status st = flow_record_march(r, network_frame_of(net), polar, x, model);
+    for (int i = first; i < r->n && st == ST_OK; i++) {
+        double increment[NET_OUT_COUNT], *y = model + num_at(0, i, NET_OUT_COUNT);
+        outside += network_eval(net, 1, x + num_at(0, i, NET_IN_COUNT), increment);
         for (int o = 0; o < NET_OUT_COUNT; o++) {
-            y[o] += steady[num_at(o, i, NET_OUT_COUNT)];
+            y[o] += increment[o];
         }
     }
-    const enum status st = assess_coefficients(r, steady, model, out);
+    st = st == ST_OK ? assess_coefficients(r, steady, model, out) : st;
     if (st == ST_OK) {
         out->outside_hull = (double)outside / (r->n - first);
     }

@@ -1,5 +1,6 @@
 #include "core/network/dataset.h"
 
+#include "core/aero/moving_section.h"
 #include "core/num.h"
 
 #include <assert.h>
@@ -106,11 +107,11 @@ static enum status add_record(const struct dataset_def *def, const struct polar 
     }
     double *y = x + (ptrdiff_t)r->n * NET_IN_COUNT;
     flow_record_inputs(r, def->window, x);
-    flow_record_steady(r, polar, y);
-    for (int i = flow_record_first(r); i < r->n; i += stride(def, r)) {
+    const enum status st = flow_record_march(r, &def->frame, polar, x, y);
+    for (int i = flow_record_first(r); st == ST_OK && i < r->n; i += stride(def, r)) {
         double *steady = y + num_at(0, i, NET_OUT_COUNT);
         const double *in = x + num_at(0, i, NET_IN_COUNT);
-        const double alpha = in[NET_IN_MEAN_ALPHA] + in[NET_IN_DELTA_ALPHA];
+        const double alpha = in[NET_IN_ALPHA];
         d->outside_polar += polar_at(polar, alpha, r->value[num_at(i, FLOW_W, r->n)]).outside;
         for (int o = 0; o < NET_OUT_COUNT; o++) {
             steady[o] = r->value[num_at(i, row[o], r->n)] - steady[o];
@@ -118,22 +119,28 @@ static enum status add_record(const struct dataset_def *def, const struct polar 
         put(in, steady, held ? &d->held : &d->trained);
     }
     free(x);
-    return ST_OK;
+    return st;
 }
 
 /* At rest there is no increment, whatever the angle. */
-static void add_anchors(int n, struct sample_set *s)
+static enum status add_anchors(const struct dataset_def *def, const struct polar *polar,
+                               struct sample_set *s)
 {
+    struct moving_section section;
     double largest = 0.0;
     for (int k = 0; k < s->n; k++) {
-        const double *x = s->x + num_at(0, k, NET_IN_COUNT);
-        largest = fmax(largest, fabs(x[NET_IN_MEAN_ALPHA] + x[NET_IN_DELTA_ALPHA]));
+        largest = fmax(largest, fabs(s->x[num_at(NET_IN_ALPHA, k, NET_IN_COUNT)]));
     }
-    for (int k = 0; k < n; k++) {
-        const double x[NET_IN_COUNT] = {[NET_IN_MEAN_ALPHA] = largest * k / n};
+    const enum status st = moving_section_init(&def->frame, polar, 1.0, &section);
+    for (int k = 0; k < def->anchors && st == ST_OK; k++) {
+        const struct moving_state at = {.theta = largest * k / def->anchors};
         const double y[NET_OUT_COUNT] = {0.0};
-        put(x, y, s);
+        (void)moving_section_step(&section, &at, true);
+        section.input[NET_IN_MEAN_ALPHA] = at.theta;
+        put(section.input, y, s);
     }
+    moving_section_done(&section);
+    return st;
 }
 
 static enum status add_records(const struct dataset_def *def, int n_record,
@@ -145,7 +152,7 @@ static enum status add_records(const struct dataset_def *def, int n_record,
         st = add_record(def, polar, &record[i], d->is_held[i], d);
     }
     if (st == ST_OK) {
-        add_anchors(def->anchors, &d->trained);
+        st = add_anchors(def, polar, &d->trained);
     }
     polar_destroy(polar);
     return st;

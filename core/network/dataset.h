@@ -1,6 +1,7 @@
 /* core/network/dataset.h
  * From records of the flow about a moving section to samples of the dynamic increment: what the
- * coefficients have beyond the steady polar at the same instant (section 2.3 and App. B).
+ * coefficients have beyond the steady polar at the same instant (section 2.3 and App. B), or
+ * beyond another model in the same motion.
  *
  * Without dimensions: chord and speed are one, time is in c/V. A dataset owns its arrays; a record
  * belongs to whoever read it. Free of state; one thread a dataset. */
@@ -56,19 +57,26 @@ int flow_record_first(const struct flow_record *r);
  * whole number of periods that comes next to `window` [c/V], or over the window where there is no
  * period; before the record the section stood still. The jerk of the plunge is differenced. */
 void flow_record_inputs(const struct flow_record *r, double window, double *x);
+/* The rows behind lags of the same x, which flow_record_inputs leaves at zero, and the coefficients
+ * y (NET_OUT_COUNT x n) of what the network stands on, in steady flow before the record.
+ * ST_NO_MEMORY. */
+MUST_CHECK enum status flow_record_march(const struct flow_record *r,
+                                         const struct network_frame *frame,
+                                         const struct polar *polar, double *x, double *y);
 /* Coefficients of the polar at the instantaneous angle and plunge: y (NET_OUT_COUNT x n). */
 void flow_record_steady(const struct flow_record *r, const struct polar *polar, double *y);
 
 struct dataset_def {
     const struct polar_def *polar; /* borrowed, checked */
+    struct network_frame frame;    /* what the increments are beyond, and the lags */
     double window;                 /* of the mean angle [c/V], > 0 */
     int samples_max;               /* of one record, equally spaced, so that records count alike */
     int anchors;                   /* samples of steady flow, see below */
     double held_share;             /* of the moving records, 0 < share < 1 */
     uint64_t seed;                 /* of the draw */
 };
-/* Window 12.5 (the first bending of the paper's beam), 500 samples and anchors, a tenth held out,
- * seed 1. */
+/* On the polar, no lags, window 12.5 (the first bending of the paper's beam), 500 samples and
+ * anchors, a tenth held out, seed 1. */
 void dataset_def_defaults(struct dataset_def *def);
 
 /* Samples of one part of the records. Each stands twice, as it is and mirrored: angles, rates,

@@ -1,5 +1,6 @@
 #include "core/network/dataset.h"
 
+#include "core/aero/moving_section.h"
 #include "core/num.h"
 
 #include <stdio.h>
@@ -174,7 +175,42 @@ void flow_record_inputs(const struct flow_record *r, double window, double *x)
         in[NET_IN_ALPHA_ACCELERATION] =
             value(r, FLOW_THETA_ACCELERATION, i) - difference(r, FLOW_W_ACCELERATION, i, step);
         in[NET_IN_PLUNGE_RATE] = value(r, FLOW_W_RATE, i);
+        in[NET_IN_ALPHA] = angle(r, i);
+        in[NET_IN_PITCH_RATE] = value(r, FLOW_THETA_RATE, i);
+        for (int k = NET_IN_ALPHA_LAG_1; k < NET_IN_COUNT; k++) {
+            in[k] = 0.0;
+        }
     }
+}
+
+static struct moving_state motion_at(const struct flow_record *r, int i)
+{
+    return (struct moving_state){.theta = value(r, FLOW_THETA, i),
+                                 .theta_rate = value(r, FLOW_THETA_RATE, i),
+                                 .theta_acceleration = value(r, FLOW_THETA_ACCELERATION, i),
+                                 .w = value(r, FLOW_W, i),
+                                 .w_rate = value(r, FLOW_W_RATE, i),
+                                 .w_acceleration = value(r, FLOW_W_ACCELERATION, i)};
+}
+
+enum status flow_record_march(const struct flow_record *r, const struct network_frame *frame,
+                              const struct polar *polar, double *x, double *y)
+{
+    struct moving_section section;
+    const enum status st = moving_section_init(frame, polar, flow_record_step(r), &section);
+    for (int i = 0; i < r->n && st == ST_OK; i++) {
+        const struct moving_state m = motion_at(r, i);
+        const struct moving_value v = moving_section_step(&section, &m, i == 0);
+        double *out = y + num_at(0, i, NET_OUT_COUNT), *in = x + num_at(0, i, NET_IN_COUNT);
+        out[NET_OUT_CL] = v.cl;
+        out[NET_OUT_CM] = v.cm;
+        out[NET_OUT_CD] = v.cd;
+        for (int k = NET_IN_ALPHA_LAG_1; k < NET_IN_COUNT; k++) {
+            in[k] = section.input[k];
+        }
+    }
+    moving_section_done(&section);
+    return st;
 }
 
 void flow_record_steady(const struct flow_record *r, const struct polar *polar, double *y)

@@ -38,6 +38,8 @@ static enum status train(const struct training_def *def, const struct dataset *d
                          struct training_result *r, struct failure_list *problems)
 {
     r->network = def->network;
+    r->network.frame = def->data.frame;
+    memcpy(r->network.polar_hash, def->data.polar->hash, sizeof r->network.polar_hash);
     r->is_held = calloc((size_t)r->n_record, sizeof *r->is_held);
     if (r->is_held == NULL) {
         return ST_NO_MEMORY;

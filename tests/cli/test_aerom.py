@@ -129,6 +129,30 @@ class Train(unittest.TestCase):
         exact = -0.3 * math.pi * math.radians(4.0) ** 2 * 2.0 * math.pi * 0.15
         self.assertLess(abs(work / exact - 1.0), 0.05)
 
+    def test_lags_a_base_members_and_folds(self):
+        arguments = ("--base", "attached", "--lags", "0.5,2", "--inputs", "alpha_lag_1,alpha_lag_2",
+                     "--members", 2, "--folds", 2, "--samples", 50, "--epochs", 20)
+        result = self.train(*arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        document = json.loads(self.output.read_text())
+        self.assertEqual((document["base"], document["lags_c_v"], document["hidden"]),
+                         ("attached", [0.5, 2], 6))
+        self.assertEqual(document["polar_hash"], document["provenance"]["polar_hash"])
+        self.assertEqual(len(document["provenance"]["members"]), 2)
+        self.assertIn("# member 2 of 2", result.stdout)
+        rows = list(csv.DictReader(result.stdout[result.stdout.index("record,part"):].splitlines()))
+        self.assertEqual([row["record"] for row in rows if row["part"] == "fold"],
+                         ["s0", "s1", "s2", "s3"])
+        motion = aerom("loop", "--polar", "flat-plate-linear", "--dynamic", "network", "--network",
+                       self.output, "--motion", self.folder / "records" / "s1.csv")
+        self.assertEqual(motion.returncode, 0, motion.stderr)
+        other = ("loop", "--dynamic", "network", "--network", self.output, "--frequency", 0.1,
+                 "--cycles", 1)
+        refused = aerom(*other)
+        self.assertEqual((refused.returncode, refused.stdout), (1, ""))
+        self.assertIn("another polar", refused.stderr)
+        self.assertEqual(aerom(*other, "--force").returncode, 0)
+
     def test_adam_and_another_seed_make_another_network(self):
         texts = set()
         for arguments in (("--seed", 1), ("--seed", 2), ("--optimiser", "adam")):
@@ -141,7 +165,13 @@ class Train(unittest.TestCase):
         for arguments, word in ((("--optimiser", "newton"), "--optimiser"),
                                 (("--epochs", 0), "--epochs"), (("--decay", -1), "--decay"),
                                 (("--seed", 0.5), "--seed"), (("--polar", "none"), "--polar"),
-                                (("--inputs", "alpha"), "--inputs"),
+                                (("--inputs", "alpha_dot"), "--inputs"),
+                                (("--inputs", "alpha_lag_1"), "/inputs/0"),
+                                (("--inputs", "alpha,stall_lost"), "/inputs/1"),
+                                (("--base", "wake"), "--base"), (("--lags", "1,x"), "--lags"),
+                                (("--lags", "1,2,3,4,5"), "--lags"), (("--lags", 0), "/lags_c_v/0"),
+                                (("--members", 0), "--members"), (("--folds", 1), "--folds"),
+                                (("--samples", 0), "--samples"), (("--anchors", -1), "--anchors"),
                                 (("--inputs", "alpha_rate,alpha_rate"), "--inputs"),
                                 (("--inputs", "plunge_rate"), "plunge_rate")):
             with self.subTest(arguments=arguments):
@@ -204,7 +234,7 @@ class Loop(unittest.TestCase):
         result = aerom("loop", *arguments)
         self.assertEqual(result.returncode, 0, result.stderr)
         lines = result.stdout.splitlines()
-        self.assertRegex(lines[-1], r"^# work \S+ pitch \S+ plunge \S+ outside_polar \d+$")
+        self.assertRegex(lines[-1], r"^# work \S+ pitch \S+ plunge \S+ outside_polar \d+ outside_hull \d+$")
         rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(lines[:-1])]
         return rows, float(lines[-1].split()[2])
 

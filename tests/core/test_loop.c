@@ -244,6 +244,7 @@ static void bad_motions_are_refused(void **state)
         assert_int_equal(problems.total, 1);
         assert_string_equal(problems.item[0].pointer, bad[i].pointer);
     }
+    struct network_def paper = fixture_network(3, 1.0, 1);
     static double rest[2 * MOTION_ROWS], wild[2 * MOTION_ROWS] = {0.0, (double)NAN};
     const struct loop_motion motion[] = {{.n = 1, .step = 0.1, .value = rest},
                                          {.n = 2, .step = 0.0, .value = rest},
@@ -251,12 +252,14 @@ static void bad_motions_are_refused(void **state)
                                          {.n = 2, .step = 0.1, .value = rest}};
     for (size_t i = 0; i < sizeof motion / sizeof motion[0]; i++) {
         const struct loop_def d = {.motion = &motion[i],
-                                   .dynamic = i < 3 ? DYNAMIC_NONE : DYNAMIC_NETWORK};
+                                   .dynamic = i < 3 ? DYNAMIC_NONE : DYNAMIC_NETWORK,
+                                   .network = i < 3 ? NULL : &paper};
         problems.count = problems.total = 0;
         loop_def_check(&d, &problems);
         assert_int_equal(problems.total, 1);
         assert_string_equal(problems.item[0].pointer, "/motion");
     }
+    network_def_done(&paper);
 }
 
 int main(void)

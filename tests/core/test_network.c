@@ -240,6 +240,47 @@ static void every_fault_of_a_network_is_named(void **state)
     network_def_done(&d);
 }
 
+/* Lags that are none, inputs behind lags there are none of, states without their model. */
+static void inputs_need_their_lag_and_base(void **state)
+{
+    (void)state;
+    struct network_def d = fixture_network(2, 1.0, 3);
+    d.frame = (struct network_frame){.base = NETWORK_ON_STALL, .n_lag = 2, .lag = {0.5, 3.0}};
+    d.input[0] = NET_IN_ALPHA_LAG_2;
+    d.input[1] = NET_IN_PITCH_LAG_1;
+    d.input[2] = NET_IN_STALL_LOST;
+    static struct failure_list none;
+    network_def_check(&d, "/n", &none);
+    assert_int_equal(none.total, 0);
+    assert_true(network_def_uses(&d, NET_IN_STALL_LOST));
+    assert_false(network_def_uses(&d, NET_IN_MEAN_ALPHA));
+    d.frame.lag[1] = 0.0;
+    assert_refused(&d, "/n/lags_c_v/1");
+    d.frame.lag[1] = (double)NAN;
+    assert_refused(&d, "/n/lags_c_v/1");
+    d.frame.n_lag = 1;
+    assert_refused(&d, "/n/inputs/0");
+    d.input[0] = NET_IN_ALPHA;
+    d.input[1] = NET_IN_PITCH_LAG_3;
+    assert_refused(&d, "/n/inputs/1");
+    d.input[1] = NET_IN_PITCH_RATE;
+    d.frame.base = NETWORK_ON_ATTACHED;
+    assert_refused(&d, "/n/inputs/2");
+    network_def_done(&d);
+}
+
+/* Known to be of another polar only where both are known. */
+static void polars_are_told_apart(void **state)
+{
+    (void)state;
+    struct network_def d = {.polar_hash = "ab"};
+    assert_true(network_def_is_of_other_polar(&d, "cd"));
+    assert_false(network_def_is_of_other_polar(&d, "ab"));
+    assert_false(network_def_is_of_other_polar(&d, ""));
+    d.polar_hash[0] = '\0';
+    assert_false(network_def_is_of_other_polar(&d, "cd"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -250,6 +291,8 @@ int main(void)
         cmocka_unit_test(tanh_keeps_its_promise),
         cmocka_unit_test(tanh_at_its_corners),
         cmocka_unit_test(every_fault_of_a_network_is_named),
+        cmocka_unit_test(inputs_need_their_lag_and_base),
+        cmocka_unit_test(polars_are_told_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

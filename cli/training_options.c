@@ -1,0 +1,145 @@
+#include "cli/training.h"
+
+#include "cli/report.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool is_word(const char *list, size_t length, const char *name)
+{
+    return strlen(name) == length && strncmp(list, name, length) == 0;
+}
+
+/* Names separated by commas; those of the paper when there are none. */
+static bool set_inputs(const char *list, struct network_def *net)
+{
+    const char *p = list != NULL ? list : "mean_alpha,delta_alpha,alpha_rate,alpha_acceleration";
+    net->n_in = 0;
+    while (*p != '\0') {
+        const size_t length = strcspn(p, ",");
+        int k = 0;
+        while (k < NET_IN_COUNT && !is_word(p, length, network_input_name((enum network_input)k))) {
+            k++;
+        }
+        if (k < NET_IN_COUNT && network_def_uses(net, (enum network_input)k)) {
+            k = NET_IN_COUNT; /* twice is a mistake as well */
+        }
+        if (k == NET_IN_COUNT || net->n_in == LIMIT_NET_INPUTS) {
+            (void)fprintf(stderr, "aerom: --inputs: '%.*s' is no input, or stands twice\n",
+                          (int)length, p);
+            return false;
+        }
+        net->input[net->n_in++] = (enum network_input)k;
+        p += length + (p[length] == ',');
+    }
+    if (net->n_in == 0) {
+        (void)fprintf(stderr, "aerom: --inputs: a network needs one\n");
+    }
+    return net->n_in > 0;
+}
+
+/* Time constants separated by commas. */
+static bool set_lags(const char *list, struct network_frame *frame)
+{
+    const char *p = list != NULL ? list : "";
+    while (*p != '\0') {
+        char *end = NULL;
+        const double value = strtod(p, &end);
+        if (end == p || (*end != ',' && *end != '\0') || frame->n_lag == NETWORK_LAGS) {
+            (void)fprintf(stderr, "aerom: --lags: at most %d time constants in c/V: '%s'\n",
+                          NETWORK_LAGS, list);
+            return false;
+        }
+        frame->lag[frame->n_lag++] = value;
+        p = end + (*end == ',');
+    }
+    return true;
+}
+
+static bool set_base(const char *name, struct network_frame *frame)
+{
+    int k = 0;
+    while (name != NULL && k < NETWORK_BASES &&
+           strcmp(network_base_name((enum network_base)k), name) != 0) {
+        k++;
+    }
+    if (k == NETWORK_BASES) {
+        (void)fprintf(stderr, "aerom: --base: '%s' is not one of polar, attached, dynamic_stall\n",
+                      name);
+        return false;
+    }
+    frame->base = (enum network_base)k;
+    return true;
+}
+
+static bool in_range(const char *option, int value, int least, int most)
+{
+    if (value >= least && value <= most) {
+        return true;
+    }
+    (void)fprintf(stderr, "aerom: %s: a whole number, %d..%d\n", option, least, most);
+    return false;
+}
+
+static bool set_counts(const struct options *o, struct training *t)
+{
+    const int seed = options_whole(o->seed, 1);
+    t->members = options_whole(o->members, 1);
+    t->folds = options_whole(o->folds, 0);
+    t->dataset_def.samples_max = options_whole(o->samples, t->dataset_def.samples_max);
+    t->dataset_def.anchors = options_whole(o->anchors, t->dataset_def.anchors);
+    t->def.seed = t->dataset_def.seed = (uint64_t)(seed < 0 ? 0 : seed);
+    return in_range("--seed", seed, 0, 1000000) &&
+           in_range("--members", t->members, 1, ENSEMBLE_MEMBERS_MAX) &&
+           (t->folds == 0 || in_range("--folds", t->folds, 2, 100)) &&
+           in_range("--samples", t->dataset_def.samples_max, 1, FLOW_SAMPLES_MAX) &&
+           in_range("--anchors", t->dataset_def.anchors, 0, FLOW_SAMPLES_MAX);
+}
+
+static bool set_name(const char *name, struct network_def *net)
+{
+    if (name[0] == '\0' || strlen(name) >= LIMIT_NAME) {
+        (void)fprintf(stderr, "aerom: --name: 1..63 bytes\n");
+        return false;
+    }
+    memcpy(net->name, name, strlen(name) + 1);
+    return true;
+}
+
+/* What only shows together: inputs without their lag or base, too many neurons. */
+static bool check(struct training *t)
+{
+    train_def_check(&t->def, t->member_hidden * t->members, t->problems);
+    network_def_check_frame(&t->entry.def, "", t->problems);
+    if (t->problems->total > 0) {
+        report_failures(stderr, "train", t->problems);
+    }
+    return t->problems->total == 0;
+}
+
+bool training_set(const struct options *o, struct training *t)
+{
+    const char *optimiser = o->optimiser != NULL ? o->optimiser : "lm";
+    const enum train_optimiser kind = train_optimiser_of(optimiser);
+    struct network_def *net = &t->entry.def;
+    if (kind == TRAIN_OPTIMISERS) {
+        (void)fprintf(stderr, "aerom: --optimiser: '%s' is not one of lm, adam\n", optimiser);
+        return false;
+    }
+    net->n_hidden = t->member_hidden = options_whole(o->hidden, 50);
+    net->n_out = 2;
+    net->output[0] = NET_OUT_CL;
+    net->output[1] = NET_OUT_CM;
+    train_def_defaults(kind, &t->def);
+    t->def.epochs = options_whole(o->epochs, t->def.epochs);
+    t->def.decay = options_given(o->decay, t->def.decay);
+    dataset_def_defaults(&t->dataset_def);
+    if (!set_name(o->name != NULL ? o->name : "trained", net) || !set_counts(o, t) ||
+        !set_base(o->base, &net->frame) || !set_lags(o->lags, &net->frame) ||
+        !set_inputs(o->inputs, net)) {
+        return false;
+    }
+    t->dataset_def.frame = net->frame;
+    return check(t);
+}
