@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes docs/PERFORMANCE.md from measurements on this machine: everything on the page is from this run.
 
-Usage: build_performance.py [--bin build/release/bin] [--rounds 21] [--no-map] [--output docs/PERFORMANCE.md]
+Usage: build_performance.py [--bin build/release/bin] [--rounds 21] [--no-map | --map FILE...] [--output docs/PERFORMANCE.md]
 
 Needs python3-numpy and python3-scipy beside the programs of tests/bench; perf for the profile. The map takes
 some two minutes on a machine that does nothing else, and its wall-clock figures mean nothing on another."""
@@ -152,18 +152,18 @@ def other_section(binary):
     return out[:-1] + ["```", ""]
 
 
-def map_section(binary):
-    out = ["## The map: 37 fibre angles × 29 speeds × 3 s", "1,073 cells of 15,000 steps through HTTP (`bench_map.py`), a daemon "
-           "with one and with two workers. Cells that stop early, at the amplitude limit, take fewer steps.", ""]
-    result = json.loads(run([sys.executable, BENCH / "bench_map.py", "--bin", binary, "--json"]))
-    first = result["runs"][0]
-    rows = [(r["workers"], f"{r['wall']:.1f}", f"{r['cpu']:.1f}", f"{r['own']:.1f}", f"{1e6 * r['own'] / r['steps']:.2f}",
-             f"{100 * (r['cpu'] / r['own'] - 1):.1f} %", f"{first['wall'] / r['wall']:.2f}", f"{first['cpu'] / r['cpu']:.2f}")
-            for r in result["runs"]]
-    out += table(("workers", "wall [s]", "processor [s]", "of it in the cells [s]", "µs a step", "beside the cells", "times faster",
-                  "processor time of one / this"), rows)
-    return out + [f"{first['cells']} cells, {first['steps']:,} steps; load of the machine before: {result['load_before']:.1f}. "
-                  "Beside the cells: models, hashes, storing, HTTP.", ""]
+def map_section(binary, files):
+    results = [json.loads(Path(f).read_text(encoding="utf-8")) for f in files]
+    results = results or [json.loads(run([sys.executable, BENCH / "bench_map.py", "--bin", binary, "--json"]))]
+    rows = [(r["cells"], f"{r['steps']:,}", r["workers"], f"{r['cpu']:.1f}", f"{r['own']:.1f}", f"{1e6 * r['own'] / r['steps']:.2f}",
+             f"{100 * (r['cpu'] / r['own'] - 1):.1f} %", f"{r['wall']:.0f}", f"{result['load_before']:.0f}")
+            for result in results for r in result["runs"]]
+    out = ["## The map: fibre angles × speeds × 3 s", "Through HTTP (`bench_map.py`), lifting line and network on, a daemon of its own; the "
+           "paper's map is 37 × 29 = 1,073 cells. Cells that stop early, at the amplitude limit, take fewer steps than 15,000. "
+           "Wall-clock seconds were measured beside other work when the load is not about zero: then only the processor's count.", ""]
+    out += table(("cells", "steps", "workers", "processor [s]", "of it in the cells [s]", "µs a step", "beside the cells", "wall [s]",
+                  "load before"), rows)
+    return out + ["Beside the cells: models, content hashes, storing, HTTP.", ""]
 
 
 def paper_section(head):
@@ -186,15 +186,16 @@ def main():
     parser.add_argument("--bin", default="build/release/bin", type=Path)
     parser.add_argument("--rounds", type=int, default=21)
     parser.add_argument("--no-map", action="store_true")
+    parser.add_argument("--map", nargs="+", default=[], metavar="FILE", help="answers of bench_map.py --json, instead of running it")
     parser.add_argument("--output", default=str(ROOT / "docs/PERFORMANCE.md"))
     given = parser.parse_args()
     step, head, network = step_section(given.bin, given.rounds)
     numpy = numpy_of(given.bin, given.rounds)
-    lines = ["# Performance", "", "Made by `tests/bench/build_performance.py`; nothing here is written by hand but the words. "
+    lines = ["# Performance", "", "Made by `tests/bench/build_performance.py`; the words are its own, the numbers are from one machine. "
              "Processor time of one thread unless it says otherwise.", "", machine() + ".", ""]
     lines += step + profile_section(given.bin, head) + limit_section(given.bin, head, numpy)
     lines += network_section(network, numpy)
-    lines += [] if given.no_map else map_section(given.bin)
+    lines += [] if given.no_map else map_section(given.bin, given.map)
     lines += paper_section(head) + other_section(given.bin)
     Path(given.output).write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
 
