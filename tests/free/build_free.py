@@ -25,7 +25,11 @@ import svg  # noqa: E402
 FREE = ROOT / "data" / "cfd" / "free"
 PAGE = ROOT / "docs" / "FREE.md"
 DRAWINGS = ROOT / "docs" / "free"
-MODELS = tuple((key, options, name, colour or svg.GREEN) for key, options, name, colour in build_loops.MODELS)
+NETWORKS = sorted(path.stem for path in (ROOT / "data" / "networks").glob("*.json"))
+MODELS = tuple((key, options, name, colour or svg.GREEN) for key, options, name, colour in build_loops.MODELS
+               if key in ("none", "attached", "stall", "own"))
+MODELS += tuple((name, ("--dynamic", "network", "--network", name), "network %s" % name, colour)
+                for name, colour in zip(NETWORKS, (svg.ORANGE, "#8430ce", "#795548")))
 EARLY, LATE = 10.0, 60.0  # [c/V]: swings between count for frequency and growth
 LONG = 1200.0             # [c/V] until a model's limit cycle
 STEADY = 0.001            # [V/c] growth below which a swing counts as a limit cycle
@@ -172,9 +176,9 @@ def compare(aerom, row, own):
 
 
 def model_limit(found):
-    if found["stop"] != "duration" or found["widest"] > WIDEST:
-        return "beyond the polar"
-    return limit_cycle(found)
+    if found["stop"] != "duration":
+        return "turns over"
+    return limit_cycle(found) + (", beyond the polar" if found["widest"] > WIDEST else "")
 
 
 def number(value, form):
@@ -214,8 +218,8 @@ def case_tables(items):
 
 
 def check_table(items, checks):
-    yield "| case | changed | frequency before, after | growth before, after |"
-    yield "|---|---|---|---|"
+    yield "| case | changed | frequency before, after | growth before, after | half the range at the end, deg |"
+    yield "|---|---|---|---|---|"
     for row in checks:
         base = next(i for i in items if all(i["row"][k] == row[k] for k in ("f_pitch", "start_deg_per_t")))
         series = record_of(row)
@@ -224,15 +228,15 @@ def check_table(items, checks):
                  for s in (base["series"], series)]
         changed = ", ".join("%s %s" % (key, row[key]) for key in ("mesh", "step")
                             if row[key] != base["row"][key])
-        yield "| `%s` | %s | %s | %s |" % (
-            base["row"]["name"], changed,
-            ", ".join(number(f["frequency"], "%.4f") for f in found),
-            ", ".join(number(f["growth"], "%+.4f") for f in found))
+        yield "| `%s` | %s | %s |" % (base["row"]["name"], changed, " | ".join(
+            ", ".join(number(f[key], form) for f in found)
+            for key, form in (("frequency", "%.4f"), ("growth", "%+.4f"), ("end", "%.2f"))))
 
 
 def sheet(title, height, parts):
-    names = [(svg.BLACK, "flow computation")] + [(colour, name) for _, _, name, colour in MODELS]
-    return svg.document(980, height, title, parts + svg.legend(names, 40, height - 18, 165))
+    names = [(svg.BLACK, "flow computation")]
+    names += [(colour, name.replace("dynamic stall, ", "").replace("plate-4pct", "").strip()) for _, _, name, colour in MODELS]
+    return svg.document(980, height, title, parts + svg.legend(names, 24, height - 18, 960 // len(names)))
 
 
 def histories(items):
@@ -252,18 +256,20 @@ def histories(items):
     return sheet("Sections on springs: angle over time", 66 + 290 * ((len(items) + 1) // 2), parts)
 
 
-def mark(panel, x, y):
-    panel.svg.append('<circle cx="%.1f" cy="%.1f" r="4" fill="%s"/>' % (panel.x(x), panel.y(y), svg.BLACK))
+def mark(panel, x, y, fill=svg.BLACK):
+    panel.svg.append('<circle cx="%.1f" cy="%.1f" r="4" fill="%s" stroke="%s"/>' % (
+        panel.x(x), panel.y(y), fill, svg.BLACK))
 
 
 def scan(aerom, items, own):
-    """Growth and limit cycle of the models over the reduced velocity, marks where the flow was computed."""
+    """Growth and limit cycle of the models over the reduced velocity, marks where the flow was computed: open
+    ones were still growing."""
     row = items[0]["row"]
     ratio = float(row["f_plunge"]) / float(row["f_pitch"])
     speeds = [5.5 + 0.25 * k for k in range(21)]
     rates = svg.Panel(60, 46, 400, 220, svg.Axis(5.5, 10.5), svg.Axis(-0.06, 0.04),
                       "growth of small swings [V/c] over V/(f c)")
-    sizes = svg.Panel(530, 46, 400, 220, svg.Axis(5.5, 10.5), svg.Axis(0.0, 20.0),
+    sizes = svg.Panel(530, 46, 400, 220, svg.Axis(5.5, 10.5), svg.Axis(0.0, 25.0),
                       "limit cycle, half range [deg] over V/(f c)")
     for key, options, _, colour in MODELS:
         polar = own if key == "own" else build_loops.POLAR
@@ -282,7 +288,8 @@ def scan(aerom, items, own):
         if is_push(item["row"]):
             mark(rates, u, item["cfd"]["growth"])
         if item["cfd"]["end"] > 2.0:
-            mark(sizes, u, item["cfd"]["end"])
+            mark(sizes, u, item["cfd"]["end"],
+                 svg.BLACK if abs(item["cfd"]["end_growth"]) <= STEADY else "#ffffff")
     return sheet("Growth of small swings and limit cycles over the reduced velocity", 340, [rates, sizes])
 
 
@@ -296,7 +303,7 @@ def page(items, checks, onsets):
     yield ""
     yield "![angle over time of the cases](free/histories.svg)"
     yield ""
-    yield "![growth and limit cycles over the reduced velocity](free/scan.svg)"
+    yield "![growth and limit cycles over the reduced velocity; open marks were still growing](free/scan.svg)"
     if checks:
         yield ""
         yield "Computed again on another mesh or with another step:"

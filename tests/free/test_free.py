@@ -69,6 +69,22 @@ class Flutter(unittest.TestCase):
                     self.assertAlmostEqual(item[key]["growth"], item["cfd"]["growth"], delta=rate)
             self.assertGreater(item["own"]["growth"] * item["cfd"]["growth"], 0.0)
 
+    def test_networks_meet_onset_and_limit_cycles(self):
+        """Onset within 10 %, limit cycles within 20 % of the flow computation."""
+        aerom, rows = os.environ["AEROM"], {row["name"]: row for row in build_free.index_rows()}
+        cfd = build_free.cfd_onset(self.items)
+        for key, options, _, _ in build_free.MODELS:
+            if key not in build_free.NETWORKS:
+                continue
+            onset = build_free.model_onset(aerom, options, build_loops.POLAR, self.items[0]["row"])
+            self.assertAlmostEqual(onset, cfd, delta=0.1 * cfd)
+            for name in ("free_f0.130_large", "free_f0.120"):
+                series = build_free.record_of(rows[name])
+                size = build_free.summary(series["t"], series["alpha_deg"])["end"]
+                model, _ = build_free.march(aerom, options, build_loops.POLAR, rows[name], duration="600")
+                found = build_free.summary(model["t"], model["alpha_deg"])["end"]
+                self.assertAlmostEqual(found, size, delta=0.2 * size, msg=name)
+
 
 if __name__ == "__main__":
     unittest.main()
