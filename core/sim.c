@@ -344,11 +344,18 @@ static enum status run_simulation(struct sim *s, const struct sim_control *contr
     /* Counters are those of the march, not of the search for its start. */
     memset(&s->workspace.counters, 0, sizeof s->workspace.counters);
     struct march march;
+    double q0[LIMIT_MODES], qd0[LIMIT_MODES];
+    const size_t bytes = (size_t)s->model.n_mode * sizeof(double);
+    memcpy(q0, s->workspace.q, bytes);
+    memcpy(qd0, s->workspace.qd, bytes);
     march_init(&s->model, &s->workspace, &s->record, &march);
     st = march_run(&march, control);
     if (st != ST_OK) {
         explain(st, &march, fail);
         return st;
+    }
+    if (march.stop == STOP_AMPLITUDE) {
+        march.rest = equilibrium_near(&s->model, &s->workspace, q0, qd0);
     }
     struct sim_result *out = &s->result;
     report_march(s, &march, out);

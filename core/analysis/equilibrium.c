@@ -90,3 +90,35 @@ enum status equilibrium_solve(const struct model *m, struct workspace *w, double
     /* The lifting line is solved to its own tolerance; what is left of it here is good enough. */
     return *residual <= 1e-7 ? ST_OK : ST_NOT_CONVERGED;
 }
+
+/* Twice the energy of the modes about an equilibrium. */
+static double energy_about(const struct model *m, const double *rest, const double *q,
+                           const double *qd)
+{
+    double sum = 0.0;
+    for (int j = 0; j < m->n_mode; j++) {
+        sum += num_sq(qd[j]) + m->omega2[j] * num_sq(q[j] - rest[j]);
+    }
+    return sum;
+}
+
+struct march_rest equilibrium_near(const struct model *m, struct workspace *w, const double *q0,
+                                   const double *qd0)
+{
+    const size_t bytes = (size_t)m->n_mode * sizeof(double);
+    const struct workspace_counters counters = w->counters;
+    struct march_rest rest = {.found = false};
+    double q[LIMIT_MODES], qd[LIMIT_MODES], residual = 0.0;
+    memcpy(q, w->q, bytes);
+    memcpy(qd, w->qd, bytes);
+    if (equilibrium_solve(m, w, &residual) == ST_OK) {
+        rest.found = true;
+        rest.energy_ratio = energy_about(m, w->q, q, qd) / energy_about(m, w->q, q0, qd0);
+        for (int j = 0; j < m->n_mode; j++) {
+            rest.tip_plunge += m->tip[j].v * w->q[j];
+            rest.tip_twist += m->tip[j].theta * w->q[j];
+        }
+    }
+    w->counters = counters;
+    return rest;
+}

@@ -88,6 +88,30 @@ static double steps_per_period(const struct march *march)
     return 2.0 * NUM_PI / (m->modes.omega[0] * m->def.solver.time_step);
 }
 
+/* Has a march that passed the amplitude limit only been bent there, on its way to an equilibrium?
+ * It is so when it has lost energy about one, and the equilibrium itself lies beyond the limit or
+ * the first swings of the start passed it. */
+static bool is_only_bent(const struct march *march)
+{
+    const struct march_rest *rest = &march->rest;
+    const struct solver_def *s = &march->model->def.solver;
+    const bool beyond = fabs(rest->tip_twist) > s->twist_max ||
+                        fabs(rest->tip_plunge) > s->plunge_max * march->model->def.beam.length;
+    return rest->found && rest->energy_ratio <= 1.0 &&
+           (beyond || march->steps < VERDICT_PERIODS * steps_per_period(march));
+}
+
+static enum verdict of_large_deflection(const struct march *march, char *reason)
+{
+    (void)snprintf(reason, VERDICT_REASON,
+                   "the amplitude limit was passed at %.4g s without growth: the energy about the "
+                   "static equilibrium (tip plunge %.3g m, twist %.3g deg) was %.2g of that at the "
+                   "start; so large a deflection is beyond the linear beam",
+                   march->steps * march->model->def.solver.time_step, march->rest.tip_plunge,
+                   num_deg(march->rest.tip_twist), march->rest.energy_ratio);
+    return VERDICT_LARGE_DEFLECTION;
+}
+
 static enum verdict of_blow_up(const struct march *march, double stalled, char *reason)
 {
     const double ratio = to_and_fro(march);
@@ -106,6 +130,9 @@ static enum verdict of_blow_up(const struct march *march, double stalled, char *
             "time steps a period (%d are wanted): take a shorter time step or fewer modes",
             time, steps_per_period(march), VERDICT_STEPS);
         return VERDICT_INDETERMINATE;
+    }
+    if (is_only_bent(march)) {
+        return of_large_deflection(march, reason);
     }
     if (!swings) {
         return VERDICT_DIVERGENCE;

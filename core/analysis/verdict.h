@@ -12,6 +12,7 @@
     X(VERDICT_FLUTTER, "flutter")                                                                  \
     X(VERDICT_STALL_FLUTTER, "stall_flutter")                                                      \
     X(VERDICT_LIMIT_CYCLE, "limit_cycle")                                                          \
+    X(VERDICT_LARGE_DEFLECTION, "large_deflection")                                                \
     X(VERDICT_FORCED, "forced")                                                                    \
     X(VERDICT_INDETERMINATE, "indeterminate")
 #define VERDICT_ENUM(code, name) code,
@@ -23,6 +24,9 @@ const char *verdict_name(enum verdict v);
 /* Rules, in this order (thirds are of the record; fluctuation is rms about the mean):
  *  - the load turns back at most steps of the last third, or most evaluations of the network are
  *    outside its training hull: indeterminate (core/analysis/doubt.h);
+ *  - stopped by amplitude, but the motion has no more energy about the static equilibrium than it
+ *    began with, and that equilibrium is beyond the limit or the limit was passed within
+ *    VERDICT_PERIODS periods of the first mode: large_deflection, nothing has grown yet;
  *  - stopped by amplitude or a number that is not finite: the last period of the first mode swings
  *    to and fro -> flutter (stall_flutter if stalled), else divergence; indeterminate when the
  *    first mode has fewer than VERDICT_STEPS time steps a period;

@@ -19,6 +19,15 @@ enum stop_reason {
     STOP_REASON_COUNT
 };
 
+/* The static equilibrium near the state in which a march was stopped by its amplitude, set by
+ * equilibrium_near (core/analysis/equilibrium.h). */
+struct march_rest {
+    bool found;
+    double energy_ratio; /* energy of the motion about it: of the last state over the first */
+    double tip_plunge;   /* [m] */
+    double tip_twist;    /* [rad] */
+};
+
 struct march {
     const struct model *model; /* borrowed */
     struct workspace *w;       /* borrowed; q and qd hold the initial state */
@@ -28,7 +37,8 @@ struct march {
     struct load_polynomial load;
     long outside_steps; /* states with a station whose angle is outside the polar */
     enum stop_reason stop;
-    int steps; /* taken */
+    struct march_rest rest; /* of STOP_AMPLITUDE */
+    int steps;              /* taken */
 };
 
 void march_init(const struct model *m, struct workspace *w, struct record *record,

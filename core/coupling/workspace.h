@@ -63,7 +63,7 @@ struct workspace {
     /* of the last evaluation */
     bool any_outside, any_stalled; /* stations with an angle outside the polar, its linear range */
 
-    struct {
+    struct workspace_counters {
         long outside_polar, outside_hull, not_converged, lifting_line_iterations;
         long lifting_line_regularised;
         double lifting_line_residual, lifting_line_smoothing;

@@ -47,6 +47,44 @@ static void forces_balance(void **state)
     }
 }
 
+/* Energy about the equilibrium: one for the state it began from, none at the equilibrium, four for
+ * twice the distance; found from each of them, and the counters stay. */
+static void energy_about_the_equilibrium(void **state)
+{
+    (void)state;
+    struct polar_def polar = fixture_linear_polar(5.0, 0.8, 0.05, 0.6);
+    struct case_def def;
+    struct model m;
+    struct workspace w;
+    struct failure fail;
+    double residual = -1.0;
+    const double nothing[LIMIT_MODES] = {0.0};
+    double rest[LIMIT_MODES], plunge = 0.0;
+    fixture_paper_beam(-45.0, &polar, &def);
+    def.flow.speed = 5.0;
+    assert_ok(model_build(&def, &m, &fail));
+    assert_ok(workspace_init(&m, &w));
+    assert_ok(equilibrium_solve(&m, &w, &residual));
+    memcpy(rest, w.q, sizeof(double) * (size_t)m.n_mode);
+    w.counters.outside_polar = 7;
+    for (double place = -1.0; place < 2.5; place += 1.0) {
+        for (int j = 0; j < m.n_mode; j++) {
+            w.q[j] = place * rest[j];
+            plunge += place == 0.0 ? m.tip[j].v * rest[j] : 0.0;
+        }
+        const struct march_rest r = equilibrium_near(&m, &w, nothing, nothing);
+        assert_true(r.found);
+        assert_near_abs(r.energy_ratio, num_sq(place - 1.0), 1e-5);
+        if (place >= 0.0) {
+            assert_near_rel(r.tip_plunge, plunge, 1e-6);
+        }
+    }
+    assert_int_equal(w.counters.outside_polar, 7);
+    workspace_done(&w);
+    model_done(&m);
+    polar_def_done(&polar);
+}
+
 static int setup(void **state)
 {
     (void)state;
@@ -56,6 +94,7 @@ static int setup(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(forces_balance)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(forces_balance),
+                                       cmocka_unit_test(energy_about_the_equilibrium)};
     return cmocka_run_group_tests(tests, setup, NULL);
 }
