@@ -85,7 +85,7 @@ const char *const network_input_names[] = {
     NETWORK_INPUT_LIST(INPUT_NAME)
 #undef INPUT_NAME
         [NET_IN_COUNT] = NULL};
-static const char *const base_names[] = {
+const char *const network_base_names[] = {
 #define BASE_NAME(code, name) [code] = (name),
     NETWORK_BASE_LIST(BASE_NAME)
 #undef BASE_NAME
@@ -283,7 +283,7 @@ const struct field network_fields[] = {
      .kind = FIELD_ENUM,
      .kinds = ENTRY_TABLE,
      .offset = offsetof(struct network_entry, def.frame.base),
-     .names = base_names,
+     .names = network_base_names,
      .omit = stands_on_polar},
     {.key = "lags_c_v",
      .kind = FIELD_ARRAY,

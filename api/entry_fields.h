@@ -19,5 +19,6 @@ extern const struct field network_fields[];  /* of struct network_entry */
 /* By the enums of core; they end with NULL. */
 extern const char *const network_input_names[];
 extern const char *const network_output_names[];
+extern const char *const network_base_names[];
 
 #endif

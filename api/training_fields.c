@@ -14,8 +14,9 @@ static const struct field_range hidden = {.min = 1, .max = LIMIT_NET_HIDDEN};
 static const struct field_range epochs = {.min = 1, .max = TRAIN_EPOCHS_MAX};
 static const struct field_range seed = {.min = 0, .max = 1000000};
 static const struct field_range batch = {.min = 1, .max = 1000000};
-static const struct field_range samples = {.min = 2, .max = FLOW_SAMPLES_MAX};
-static const struct field_range anchors = {.min = 0, .max = 100000};
+static const struct field_range samples = {.min = 1, .max = FLOW_SAMPLES_MAX};
+static const struct field_range anchors = {.min = 0, .max = FLOW_SAMPLES_MAX};
+static const struct field_range members = {.min = 1, .max = ENSEMBLE_MEMBERS_MAX};
 static const struct field_range decay = {.min = 0.0, .max = 1.0};
 static const struct field_range rate = {.min = 0.0, .max = 1.0, .above_min = true};
 static const struct field_range window = {.min = 0.0, .max = 1000.0, .above_min = true};
@@ -98,9 +99,19 @@ const struct field training_fields[] = {
      .required = true,
      .read = case_read_polar,
      .write = case_write_polar},
+    {.key = "base",
+     .kind = FIELD_ENUM,
+     .offset = AT(def.network.frame.base),
+     .names = network_base_names},
+    {.key = "lags_c_v",
+     .kind = FIELD_ARRAY,
+     .offset = AT(def.network.frame.lag),
+     .count = AT(def.network.frame.n_lag),
+     .max = NETWORK_LAGS},
     NAMES("inputs", input, n_in, network_input_names, LIMIT_NET_INPUTS),
     NAMES("outputs", output, n_out, network_output_names, LIMIT_NET_OUTPUTS),
     INTEGER("hidden", def.network.n_hidden, hidden),
+    INTEGER("members", def.members, members),
     {.key = "optimiser", .kind = FIELD_CUSTOM, .read = read_optimiser, .write = write_optimiser},
     INTEGER("epochs", def.train.epochs, epochs),
     INTEGER("patience", def.train.patience, epochs),
@@ -115,6 +126,22 @@ const struct field training_fields[] = {
     {0},
 };
 
+/* What only shows together: inputs without their lag or base, too many neurons. */
+static void check_network(struct reader *r, const struct training_def *d)
+{
+    const long long neurons = (long long)d->members * d->network.n_hidden;
+    network_def_check_frame(&d->network, r->pointer, r->problems);
+    if (neurons > LIMIT_NET_HIDDEN) {
+        const size_t mark = reader_enter_key(r, "members");
+        char expected[48];
+        (void)snprintf(expected, sizeof expected, "members * hidden <= %d", LIMIT_NET_HIDDEN);
+        reader_problem(r, "out_of_range", expected, NULL,
+                       "%d members of %d neurons are a network of %lld", d->members,
+                       d->network.n_hidden, neurons);
+        reader_leave(r, mark);
+    }
+}
+
 void training_finish(struct reader *r, const struct cJSON *json, void *base)
 {
     struct api_case *c = base;
@@ -124,6 +151,7 @@ void training_finish(struct reader *r, const struct cJSON *json, void *base)
     t->def.train.seed = (uint64_t)t->seed;
     t->def.data.seed = (uint64_t)t->seed;
     t->def.data.polar = c->def.aero.polar;
+    check_network(r, &t->def);
     const size_t mark = reader_enter_key(r, "network");
     if (name[0] != '\0' && library_is_built_in(c->library, SHELF_NETWORK, name)) {
         reader_problem(r, "built_in", "a name of your own", NULL,

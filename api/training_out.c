@@ -33,12 +33,33 @@ static void write_names(struct json_out *out, const struct training_out *t, bool
     json_array_end(out);
 }
 
+/* How each training of the mean went. */
+static void write_members(struct json_out *out, const struct training_out *t)
+{
+    json_key(out, "members");
+    json_array_begin(out);
+    for (int k = 0; k < t->result.n_member; k++) {
+        const struct ensemble_member *m = &t->result.member[k];
+        json_object_begin(out);
+        json_key_integer(out, "seed", t->c->training.seed + k);
+        json_key_integer(out, "epochs", m->curve.n - 1);
+        json_key_integer(out, "epoch_kept", m->curve.best);
+        json_key_number(out, "mean_square_error_trained", m->curve.trained[m->curve.best]);
+        json_key_number(out, "mean_square_error_held", m->curve.held[m->curve.best]);
+        json_key_integer(out, "records_held", m->n_held_record);
+        json_key_integer(out, "samples_trained", m->n_trained);
+        json_key_integer(out, "samples_held", m->n_held);
+        json_key_integer(out, "outside_polar", m->outside_polar);
+        json_object_end(out);
+    }
+    json_array_end(out);
+}
+
 /* What the numbers come from: enough to make them again. */
 static char *provenance(const struct training_out *t)
 {
     const struct training_entry *e = &t->c->training;
     const struct polar_def *polar = e->def.data.polar;
-    const struct train_curve *curve = &t->result.curve;
     struct json_out out = {0};
     json_object_begin(&out);
     json_key_string(&out, "made_by", "aeromd, kind training");
@@ -50,12 +71,7 @@ static char *provenance(const struct training_out *t)
     json_key_string(&out, "polar_hash", polar->hash);
     json_key(&out, "definition");
     field_write(&out, training_fields, CASE_IN_TRAINING, t->c);
-    json_key_integer(&out, "samples_trained", t->result.samples_trained);
-    json_key_integer(&out, "samples_held", t->result.samples_held);
-    json_key_integer(&out, "epochs", curve->n - 1);
-    json_key_integer(&out, "epoch_kept", curve->best);
-    json_key_number(&out, "mean_square_error_trained", curve->trained[curve->best]);
-    json_key_number(&out, "mean_square_error_held", curve->held[curve->best]);
+    write_members(&out, t);
     write_names(&out, t, false, "records_trained");
     write_names(&out, t, true, "records_held");
     json_object_end(&out);
@@ -199,16 +215,28 @@ static void write_assessment(struct json_out *out, const struct training_out *t,
     json_object_end(out);
 }
 
-static void write_training(struct json_out *out, const struct training_out *t)
+static void write_curve(struct json_out *out, const struct train_curve *curve, int seed)
 {
-    const struct train_curve *curve = &t->result.curve;
     json_object_begin(out);
+    json_key_integer(out, "seed", seed);
     json_key_integer(out, "epoch_kept", curve->best);
     json_key(out, "curve");
     json_object_begin(out);
     json_key_numbers(out, "trained", curve->n, curve->trained, 1, 1.0);
     json_key_numbers(out, "held", curve->n, curve->held, 1, 1.0);
     json_object_end(out);
+    json_object_end(out);
+}
+
+static void write_training(struct json_out *out, const struct training_out *t)
+{
+    json_object_begin(out);
+    json_key(out, "members");
+    json_array_begin(out);
+    for (int k = 0; k < t->result.n_member; k++) {
+        write_curve(out, &t->result.member[k].curve, t->c->training.seed + k);
+    }
+    json_array_end(out);
     json_key(out, "records");
     json_array_begin(out);
     for (int i = 0; i < t->result.n_record; i++) {
@@ -267,7 +295,6 @@ static void write_identity(struct json_out *out, const struct training_out *t)
 static void write_summary(struct json_out *out, const struct training_out *t,
                           const struct run_timing *timing)
 {
-    const struct training_result *r = &t->result;
     json_object_begin(out);
     json_key_string(out, "kind", case_kind_name(CASE_TRAINING));
     json_key_string(out, "name", api_case_def(t->c)->name);
@@ -276,15 +303,8 @@ static void write_summary(struct json_out *out, const struct training_out *t,
     json_key_string(out, "name", t->c->training.def.network.name);
     json_key_string(out, "hash", t->hash);
     json_object_end(out);
-    json_key_integer(out, "epochs", r->curve.n - 1);
-    json_key_integer(out, "epoch_kept", r->curve.best);
-    json_key_number(out, "mean_square_error_trained", r->curve.trained[r->curve.best]);
-    json_key_number(out, "mean_square_error_held", r->curve.held[r->curve.best]);
-    json_key_integer(out, "records", r->n_record);
-    json_key_integer(out, "records_held", r->n_held);
-    json_key_integer(out, "samples_trained", r->samples_trained);
-    json_key_integer(out, "samples_held", r->samples_held);
-    json_key_integer(out, "outside_polar", r->outside_polar);
+    json_key_integer(out, "records", t->result.n_record);
+    write_members(out, t);
     write_part(out, t, false, "trained");
     write_part(out, t, true, "held");
     json_key(out, "timing");

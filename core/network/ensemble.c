@@ -114,11 +114,14 @@ enum status ensemble_train(const struct dataset_def *data_def, const struct trai
     for (; n < members && st == ST_OK; n++) {
         struct dataset_def own_data = *data_def;
         struct train_def own = *def;
+        struct sim_control part = control != NULL ? *control : (struct sim_control){.part = 0};
+        part.part = n;
+        part.parts = members;
         own_data.seed += (uint64_t)n;
         own.seed += (uint64_t)n;
         trained[n] = *net;
-        st = train_member(&own_data, &own, n_record, record, control, &trained[n], &member[n],
-                          problems);
+        st = train_member(&own_data, &own, n_record, record, control != NULL ? &part : NULL,
+                          &trained[n], &member[n], problems);
     }
     if (st == ST_OK) {
         st = ensemble_merge(members, trained, net);

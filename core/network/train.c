@@ -97,7 +97,8 @@ bool train_is_cancelled(const struct sim_control *control, int epoch, int epochs
         return false;
     }
     if (control->progress != NULL) {
-        atomic_store(control->progress, (double)epoch / epochs);
+        atomic_store(control->progress, (control->part + (double)epoch / epochs) /
+                                            (control->parts > 0 ? control->parts : 1));
     }
     return control->cancel != NULL && atomic_load(control->cancel);
 }

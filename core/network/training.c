@@ -6,7 +6,8 @@
 void training_def_defaults(struct training_def *def)
 {
     *def =
-        (struct training_def){.network = {.n_hidden = 50,
+        (struct training_def){.members = 1,
+                              .network = {.n_hidden = 50,
                                           .n_in = 4,
                                           .input = {NET_IN_MEAN_ALPHA, NET_IN_DELTA_ALPHA,
                                                     NET_IN_ALPHA_RATE, NET_IN_ALPHA_ACCELERATION},
@@ -33,38 +34,46 @@ static enum status assess_all(const struct training_def *def, const struct flow_
     return st;
 }
 
-static enum status train(const struct training_def *def, const struct dataset *data,
-                         const struct flow_record *record, const struct sim_control *control,
-                         struct training_result *r, struct failure_list *problems)
+static bool held_by_all(const struct training_result *r, int record)
 {
-    r->network = def->network;
-    r->network.frame = def->data.frame;
-    memcpy(r->network.polar_hash, def->data.polar->hash, sizeof r->network.polar_hash);
+    bool held = true;
+    for (int k = 0; k < r->n_member; k++) {
+        held = held && r->member[k].is_held[record];
+    }
+    return held;
+}
+
+static enum status train(const struct training_def *def, const struct flow_record *record,
+                         const struct sim_control *control, struct training_result *r,
+                         struct failure_list *problems)
+{
+    struct dataset_def data = def->data;
+    struct network_def net = def->network;
+    data.frame = net.frame;
+    memcpy(net.polar_hash, data.polar->hash, sizeof net.polar_hash);
+    r->member = calloc((size_t)r->n_member, sizeof *r->member);
     r->is_held = calloc((size_t)r->n_record, sizeof *r->is_held);
-    if (r->is_held == NULL) {
+    if (r->member == NULL || r->is_held == NULL) {
         return ST_NO_MEMORY;
     }
-    memcpy(r->is_held, data->is_held, (size_t)r->n_record * sizeof *r->is_held);
-    r->n_held = data->n_held;
-    r->samples_trained = data->trained.n;
-    r->samples_held = data->held.n;
-    r->outside_polar = data->outside_polar;
-    const enum status st =
-        train_network(data, &def->train, control, &r->network, &r->curve, problems);
-    return st == ST_OK ? assess_all(def, record, r) : st;
+    const enum status st = ensemble_train(&data, &def->train, r->n_member, r->n_record, record,
+                                          control, &net, r->member, problems);
+    if (st != ST_OK) {
+        return st;
+    }
+    r->network = net;
+    for (int i = 0; i < r->n_record; i++) {
+        r->is_held[i] = held_by_all(r, i);
+    }
+    return assess_all(def, record, r);
 }
 
 enum status training_run(const struct training_def *def, int n_record,
                          const struct flow_record *record, const struct sim_control *control,
                          struct training_result *out, struct failure_list *problems)
 {
-    struct training_result r = {.n_record = n_record};
-    struct dataset data;
-    enum status st = dataset_build(&def->data, n_record, record, problems, &data);
-    if (st == ST_OK) {
-        st = train(def, &data, record, control, &r, problems);
-        dataset_done(&data);
-    }
+    struct training_result r = {.n_member = def->members, .n_record = n_record};
+    const enum status st = train(def, record, control, &r, problems);
     if (st != ST_OK) {
         training_result_done(&r);
     }
@@ -75,7 +84,10 @@ enum status training_run(const struct training_def *def, int n_record,
 void training_result_done(struct training_result *r)
 {
     network_def_done(&r->network);
-    train_curve_done(&r->curve);
+    if (r->member != NULL) {
+        ensemble_members_done(r->n_member, r->member);
+    }
+    free(r->member);
     free(r->is_held);
     free(r->assessment);
     *r = (struct training_result){.n_record = 0};

@@ -1,31 +1,31 @@
 /* core/network/training.h
- * One whole training: from records to a network, its learning curve and its errors on every record.
+ * One whole training: from records to a network, its learning curves and its errors on every
+ * record.
  *
  * One thread a training. */
 #ifndef AEROM_CORE_NETWORK_TRAINING_H
 #define AEROM_CORE_NETWORK_TRAINING_H
 
 #include "core/network/assess.h"
-#include "core/network/train.h"
+#include "core/network/ensemble.h"
 
 struct training_def {
-    struct dataset_def data;
+    struct dataset_def data; /* its frame is that of the network */
     struct train_def train;
-    struct network_def network; /* name, inputs, outputs and n_hidden; the rest empty */
+    struct network_def network; /* name, frame, inputs, outputs, n_hidden of a member; else empty */
+    int members;                /* trainings whose mean is the network, 1..ENSEMBLE_MEMBERS_MAX */
 };
 
 struct training_result {
     struct network_def network; /* owned, as is all below */
-    struct train_curve curve;
-    int samples_trained, samples_held; /* without the mirrored ones */
-    int outside_polar;
-    int n_record, n_held;
-    bool *is_held;                 /* (n_record) */
-    struct assessment *assessment; /* (n_record) */
+    int n_member, n_record;
+    struct ensemble_member *member; /* (n_member) */
+    bool *is_held;                  /* by every member: none was trained on it (n_record) */
+    struct assessment *assessment;  /* (n_record) */
 };
 
 /* Polar without a network, defaults of Levenberg-Marquardt, the four inputs of App. B, c_l and c_m,
- * 50 neurons. */
+ * one member of 50 neurons. */
 void training_def_defaults(struct training_def *def);
 
 /* Records must have passed their check. ST_CANCELLED; ST_INVALID with *problems filled. On failure

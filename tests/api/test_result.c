@@ -80,7 +80,7 @@ static const struct sim_result *run_case(struct fixture *f, const char *json)
     struct failure fail = {.detail = ""};
     assert_int_equal(api_case_parse(f->lib, json, strlen(json), "", &f->c, problems), ST_OK);
     if (sim_create(api_case_def(f->c), &f->sim, &fail) != ST_OK ||
-        sim_run(f->sim, &(const struct sim_control){NULL, NULL}, &fail) != ST_OK) {
+        sim_run(f->sim, &(const struct sim_control){.cancel = NULL}, &fail) != ST_OK) {
         fail_msg("%s", fail.detail);
     }
     free(problems);

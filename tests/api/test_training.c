@@ -21,6 +21,12 @@
     "\"dataset\":\"plate-4pct\",\"polar\":\"plate-4pct-channel\",\"hidden\":3,\"epochs\":3,"       \
     "\"inputs\":[\"mean_alpha\",\"alpha_rate\"],\"samples_max\":20,\"anchors\":10" more "}}"
 
+#define LAG_CASE(more)                                                                             \
+    "{\"schema_version\":1,\"kind\":\"training\",\"training\":{\"network\":\"lags\","              \
+    "\"dataset\":\"plate-4pct\",\"polar\":\"plate-4pct-channel\",\"hidden\":3,\"epochs\":3,"       \
+    "\"base\":\"dynamic_stall\",\"lags_c_v\":[1,4],\"inputs\":[\"alpha_lag_2\",\"stall_bubble\"]," \
+    "\"samples_max\":20,\"anchors\":10" more "}}"
+
 struct fixture {
     struct library *lib;
     cJSON *doc;
@@ -102,6 +108,109 @@ static void test_documents(void **state)
     api_case_destroy(c);
 }
 
+static void compute(struct fixture *f, const char *json, struct api_case **c,
+                    struct training_out **t)
+{
+    struct failure fail;
+    *c = parse(f, json);
+    assert_int_equal(training_compute(*c, NULL, t, &fail), ST_OK);
+}
+
+static cJSON *document(struct fixture *f, const struct training_out *t, const char *name,
+                       const char *schema)
+{
+    struct failure fail;
+    cJSON *tree = NULL;
+    char *text = check(f, t, name, schema);
+    assert_int_equal(json_parse(text, strlen(text), &tree, &fail), ST_OK);
+    free(text);
+    return tree;
+}
+
+static const cJSON *at(const cJSON *tree, const char *key)
+{
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(tree, key);
+    assert_non_null(item);
+    return item;
+}
+
+/* The second of two members is the training with the next seed, and the network has the neurons,
+ * base and lags of both, for its polar only. */
+static void test_lags_and_members(void **state)
+{
+    struct fixture *f = *state;
+    struct api_case *two, *one;
+    struct training_out *pair, *single;
+    compute(f, LAG_CASE(",\"members\":2"), &two, &pair);
+    compute(f, LAG_CASE(",\"seed\":2"), &one, &single);
+    cJSON *curves = document(f, pair, "training", "#/components/schemas/TrainingResult");
+    cJSON *alone = document(f, single, "training", "#/components/schemas/TrainingResult");
+    assert_int_equal(cJSON_GetArraySize(at(curves, "members")), 2);
+    const cJSON *second = cJSON_GetArrayItem(at(curves, "members"), 1);
+    assert_true(cJSON_Compare(second, cJSON_GetArrayItem(at(alone, "members"), 0), true));
+    assert_int_equal(at(second, "seed")->valueint, 2);
+    cJSON *summary = document(f, pair, "summary", "#/components/schemas/SummaryTraining");
+    assert_int_equal(cJSON_GetArraySize(at(summary, "members")), 2);
+
+    char *network = check(f, pair, "network", "#/components/schemas/Network");
+    struct entry_set set = {0};
+    assert_int_equal(entry_parse(network, strlen(network), entry_read_network, &set, &f->problems),
+                     ST_OK);
+    const struct network_def *def = &set.network[0].def;
+    assert_int_equal(def->n_hidden, 6);
+    assert_int_equal(def->frame.base, NETWORK_ON_STALL);
+    assert_int_equal(def->frame.n_lag, 2);
+    assert_true(def->frame.lag[0] == 1.0 && def->frame.lag[1] == 4.0);
+    assert_string_equal(def->polar_hash, api_case_def(two)->aero.polar->hash);
+    entry_set_done(&set);
+    free(network);
+    cJSON_Delete(summary);
+    cJSON_Delete(curves);
+    cJSON_Delete(alone);
+    training_out_destroy(pair);
+    training_out_destroy(single);
+    api_case_destroy(two);
+    api_case_destroy(one);
+}
+
+static void test_refusals(void **state)
+{
+    static const struct {
+        const char *json, *pointer, *code;
+    } bad[] = {
+        {CASE(",\"base\":\"wake\""), "/training/base", "unknown_value"},
+        {CASE(",\"lags_c_v\":[1,0]"), "/training/lags_c_v/1", "out_of_range"},
+        {CASE(",\"lags_c_v\":[1,2,3,4,5]"), "/training/lags_c_v", "wrong_length"},
+        {CASE(",\"members\":0"), "/training/members", "out_of_range"},
+        {CASE(",\"members\":65"), "/training/members", "out_of_range"},
+        {"{\"schema_version\":1,\"kind\":\"training\",\"training\":{\"network\":\"big\","
+         "\"dataset\":"
+         "\"plate-4pct\",\"polar\":\"plate-4pct-channel\",\"hidden\":257,\"members\":2}}",
+         "/training/members", "out_of_range"},
+        {"{\"schema_version\":1,\"kind\":\"training\",\"training\":{\"network\":\"lag\","
+         "\"dataset\":"
+         "\"plate-4pct\",\"polar\":\"plate-4pct-channel\",\"lags_c_v\":[1],"
+         "\"inputs\":[\"alpha_lag_2\"]}}",
+         "/training/inputs/0", "contradiction"},
+        {"{\"schema_version\":1,\"kind\":\"training\",\"training\":{\"network\":\"lag\","
+         "\"dataset\":"
+         "\"plate-4pct\",\"polar\":\"plate-4pct-channel\",\"base\":\"attached\","
+         "\"inputs\":[\"alpha\",\"stall_lost\"]}}",
+         "/training/inputs/1", "contradiction"},
+    };
+    struct fixture *f = *state;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        struct api_case *c = NULL;
+        f->problems = (struct failure_list){0};
+        assert_int_equal(
+            api_case_parse(f->lib, bad[i].json, strlen(bad[i].json), "", &c, &f->problems),
+            ST_INVALID);
+        assert_int_equal(f->problems.total, 1);
+        assert_string_equal(f->problems.item[0].pointer, bad[i].pointer);
+        assert_string_equal(f->problems.item[0].code, bad[i].code);
+    }
+}
+
 static void test_cancel(void **state)
 {
     struct fixture *f = *state;
@@ -136,7 +245,7 @@ static void test_defaults(void **state)
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
-    const struct CMUnitTest tests[] = {TEST(test_documents), TEST(test_cancel),
-                                       TEST(test_defaults)};
+    const struct CMUnitTest tests[] = {TEST(test_documents), TEST(test_lags_and_members),
+                                       TEST(test_refusals), TEST(test_cancel), TEST(test_defaults)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -796,7 +796,8 @@ class Daemon(unittest.TestCase):
                          "samples_max": 10, "anchors": 10}})
         summary = json.loads(aerom("get", job_id, url=self.url).stdout)
         curves = json.loads(aerom("get", job_id, "training", url=self.url).stdout)
-        self.assertEqual(len(curves["curve"]["trained"]), summary["epochs"] + 1)
+        self.assertEqual(len(curves["members"][0]["curve"]["trained"]),
+                         summary["members"][0]["epochs"] + 1)
         network = json.loads(aerom("get", job_id, "network", url=self.url).stdout)
         self.assertEqual((network["name"], network["hidden"]), ("cli", 2))
         shown = aerom("show", job_id, url=self.url)

@@ -145,12 +145,27 @@ static void members_share_the_records(void **state)
     free(list);
 }
 
+/* Members share the way from 0 to 1; a training alone has all of it. */
+static void progress_runs_over_all_members(void **state)
+{
+    (void)state;
+    _Atomic double progress = -1.0;
+    struct sim_control control = {.progress = &progress};
+    assert_false(train_is_cancelled(&control, 1, 4));
+    assert_true(progress == 0.25);
+    control.parts = 4;
+    control.part = 3;
+    assert_false(train_is_cancelled(&control, 1, 2));
+    assert_true(progress == 0.875);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_merged_network_is_the_mean),
         cmocka_unit_test(too_many_neurons),
         cmocka_unit_test(members_share_the_records),
+        cmocka_unit_test(progress_runs_over_all_members),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,7 @@ import json
 import math
 import xml.etree.ElementTree
 
-from daemon import DaemonTest
+from daemon import DaemonTest, simulation
 
 COLUMNS = ["t", "alpha_deg", "alpha_dot", "alpha_ddot", "w", "w_dot", "w_ddot", "cl", "cd", "cm"]
 
@@ -150,12 +150,14 @@ class Training(DaemonTest):
         self.assertEqual(d.wait(job)["state"], "done")
         _, _, summary = d.request("GET", f"/v1/jobs/{job}/summary")
         self.assertEqual(summary["identity"]["dataset"], {"name": "own@1", "hash": kept["hash"]})
-        self.assertEqual((summary["records"], summary["records_held"]), (6, 1))
+        member, = summary["members"]
+        self.assertEqual((summary["records"], member["records_held"]), (6, 1))
         self.assertLess(summary["held"]["cl_rms_of_range"], 0.005)
         self.assertGreater(summary["held"]["cl_rms_of_range_polar"], 0.015)
         _, _, curves = d.request("GET", f"/v1/jobs/{job}/training")
-        self.assertEqual(len(curves["curve"]["held"]), summary["epochs"] + 1)
-        self.assertEqual(min(curves["curve"]["held"]), summary["mean_square_error_held"])
+        held = curves["members"][0]["curve"]["held"]
+        self.assertEqual(len(held), member["epochs"] + 1)
+        self.assertEqual(min(held), member["mean_square_error_held"])
         self.assertEqual([r["name"] for r in curves["records"]],
                          [r["name"] for r in dataset()["records"]])
         self.assertEqual([r["part"] for r in curves["records"]].count("held"), 1)
@@ -187,6 +189,77 @@ class Training(DaemonTest):
         self.assertEqual(d.wait(second)["state"], "done")
         self.assertEqual(d.request("GET", "/v1/networks/small")[2]["version"], 2)
 
+    def test_lags_on_a_base(self):
+        """Members of a network with lags on attached flow, trained on some of the flow computations.
+        In the motion of a record the kind `loop` finds the work the training has reported, and the
+        network is for its polar only."""
+        d = self.start().wait_ready()
+        _, _, text = d.request("GET", "/v1/datasets/plate-4pct?format=csv")
+        lines = text.decode().splitlines()
+        names = [r["name"] for r in d.request("GET", "/v1/datasets/plate-4pct")[2]["records"]
+                 if r["name"].startswith("pitch_m2.5") and "step" not in r["name"]][:4]
+        self.assertIn("pitch_m2.5_a5_f0.125", names)
+        part = "\n".join([lines[0]] + [x for x in lines[1:] if x.split(",")[0] in names]) + "\n"
+        self.assertEqual(d.request("POST", "/v1/datasets?name=part", part.encode(),
+                                   {"Content-Type": "text/csv"})[0], 201)
+        job = d.submit({"schema_version": 1, "kind": "training",
+                        "training": {"network": "lags", "dataset": "part",
+                                     "polar": "plate-4pct-channel", "base": "attached",
+                                     "lags_c_v": [0.5, 4],
+                                     "inputs": ["alpha", "alpha_lag_1", "alpha_lag_2"],
+                                     "hidden": 4, "members": 2, "samples_max": 60, "anchors": 60,
+                                     "epochs": 40}})
+        self.assertEqual(d.wait(job)["state"], "done")
+        _, _, network = d.request("GET", "/v1/networks/lags")
+        _, _, polar = d.request("GET", "/v1/polars/plate-4pct-channel")
+        self.assertEqual((network["base"], network["lags_c_v"], network["hidden"]),
+                         ("attached", [0.5, 4], 8))
+        self.assertEqual(network["polar_hash"], polar["hash"])
+        _, _, curves = d.request("GET", f"/v1/jobs/{job}/training")
+        self.assertEqual([m["seed"] for m in curves["members"]], [1, 2])
+        record, = (r for r in curves["records"] if r["name"] == "pitch_m2.5_a5_f0.125")
+        self.assertLess(record["cl_rms"], 0.5 * record["cl_rms_polar"])
+
+        case = {"schema_version": 1, "kind": "loop",
+                "aerodynamics": {"polar": "plate-4pct-channel",
+                                 "dynamic": {"type": "network", "name": "lags"}},
+                "motion": {"type": "sine", "mean_deg": 2.5, "amplitude_deg": 5,
+                           "frequency_c_v": 0.125}}
+        use = d.submit(case)
+        self.assertEqual(d.wait(use)["state"], "done")
+        _, _, summary = d.request("GET", f"/v1/jobs/{use}/summary")
+        expected = record["work_network"]["pitch"]
+        self.assertAlmostEqual(summary["work"]["pitch"], expected, delta=0.03 * abs(expected))
+        self.check_other_polar(d, case)
+
+    def check_other_polar(self, d, case):
+        """Refused at the network, unless forced."""
+        aero = {**case["aerodynamics"], "polar": "flat-plate-linear"}
+        status, _, problem = d.request("POST", "/v1/jobs", {**case, "aerodynamics": aero})
+        self.assertEqual(status, 422, problem)
+        self.assertEqual([(e["pointer"], e["code"]) for e in problem["errors"]],
+                         [("/aerodynamics/dynamic/name", "other_polar")])
+        aero["dynamic"] = {**aero["dynamic"], "force": True}
+        job = d.submit({**case, "aerodynamics": aero})
+        self.assertEqual(d.wait(job)["state"], "done")
+        _, _, summary = d.request("GET", f"/v1/jobs/{job}/summary")
+        self.assertTrue(summary["identity"]["network_forced"])
+
+    def test_shipped_network(self):
+        """Marches the beam of the paper, is part of the answer, and is for its polar only."""
+        d = self.start().wait_ready()
+        case = simulation()
+        plain = d.submit(case)
+        case["aerodynamics"]["dynamic"] = {"type": "network", "name": "plate-4pct"}
+        job = d.submit(case)
+        for one in (plain, job):
+            self.assertEqual(d.wait(one)["state"], "done")
+        steady, summary = (d.request("GET", f"/v1/jobs/{one}/summary")[2] for one in (plain, job))
+        self.assertEqual(summary["identity"]["network"]["name"], "plate-4pct")
+        self.assertFalse(summary["identity"]["network_forced"])
+        self.assertGreater(abs(summary["means"]["cl"] - steady["means"]["cl"]), 1e-3)
+        self.check_other_polar(d, case)
+
     def test_cancel_and_use_of_the_dataset(self):
         d = self.start("--workers", "1").wait_ready()
         d.request("POST", "/v1/datasets", dataset())
@@ -210,6 +283,10 @@ class Training(DaemonTest):
                 ({"inputs": ["speed"]}, "/training/inputs/0", "unknown_value"),
                 ({"epochs": 1e9}, "/training/epochs", "out_of_range"),
                 ({"held_share": 1}, "/training/held_share", "out_of_range"),
+                ({"base": "wake"}, "/training/base", "unknown_value"),
+                ({"lags_c_v": [2, -1]}, "/training/lags_c_v/1", "out_of_range"),
+                ({"inputs": ["alpha", "pitch_rate_lag_1"]}, "/training/inputs/1", "contradiction"),
+                ({"hidden": 100, "members": 6}, "/training/members", "out_of_range"),
                 ({"layers": 2}, "/training/layers", "unknown_key")):
             with self.subTest(pointer=pointer):
                 status, _, problem = d.request("POST", "/v1/jobs", training(**more))
