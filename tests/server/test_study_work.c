@@ -200,5 +200,6 @@ int main(void)
         TEST(test_what_no_longer_parses_fails),
         TEST(test_stopped_work_waits_again),
     };
+    sim_process_init();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
