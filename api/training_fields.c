@@ -17,6 +17,7 @@ static const struct field_range batch = {.min = 1, .max = 1000000};
 static const struct field_range samples = {.min = 1, .max = FLOW_SAMPLES_MAX};
 static const struct field_range anchors = {.min = 0, .max = FLOW_SAMPLES_MAX};
 static const struct field_range members = {.min = 1, .max = ENSEMBLE_MEMBERS_MAX};
+static const struct field_range folds = {.min = 0, .max = TRAINING_FOLDS_MAX};
 static const struct field_range decay = {.min = 0.0, .max = 1.0};
 static const struct field_range rate = {.min = 0.0, .max = 1.0, .above_min = true};
 static const struct field_range window = {.min = 0.0, .max = 1000.0, .above_min = true};
@@ -112,6 +113,7 @@ const struct field training_fields[] = {
     NAMES("outputs", output, n_out, network_output_names, LIMIT_NET_OUTPUTS),
     INTEGER("hidden", def.network.n_hidden, hidden),
     INTEGER("members", def.members, members),
+    INTEGER("folds", def.folds, folds),
     {.key = "optimiser", .kind = FIELD_CUSTOM, .read = read_optimiser, .write = write_optimiser},
     INTEGER("epochs", def.train.epochs, epochs),
     INTEGER("patience", def.train.patience, epochs),
@@ -138,6 +140,12 @@ static void check_network(struct reader *r, const struct training_def *d)
         reader_problem(r, "out_of_range", expected, NULL,
                        "%d members of %d neurons are a network of %lld", d->members,
                        d->network.n_hidden, neurons);
+        reader_leave(r, mark);
+    }
+    if (d->folds == 1) {
+        const size_t mark = reader_enter_key(r, "folds");
+        reader_problem(r, "out_of_range", "0, or 2 and more", NULL,
+                       "one fold would leave nothing to train on");
         reader_leave(r, mark);
     }
 }

@@ -195,6 +195,21 @@ static void write_work(struct json_out *out, const char *key, const struct asses
     json_object_end(out);
 }
 
+/* What networks that have not seen the record make of it; null without, and for one at rest. */
+static void write_fold(struct json_out *out, const struct training_out *t, int i)
+{
+    if (t->result.fold == NULL || !flow_record_moves(&t->data.record[i])) {
+        json_null(out);
+        return;
+    }
+    const struct assessment *a = &t->result.fold[i];
+    json_object_begin(out);
+    json_key_number(out, "cl_rms", a->network_cl);
+    json_key_number(out, "cm_rms", a->network_cm);
+    json_key_number(out, "energy_error", assess_energy_error(&a->network, &a->record));
+    json_object_end(out);
+}
+
 static void write_assessment(struct json_out *out, const struct training_out *t, int i)
 {
     const struct assessment *a = &t->result.assessment[i];
@@ -212,6 +227,8 @@ static void write_assessment(struct json_out *out, const struct training_out *t,
     write_work(out, "work_polar", &a->steady);
     json_key_number(out, "energy_error", assess_energy_error(&a->network, &a->record));
     json_key_number(out, "outside_hull", a->outside_hull);
+    json_key(out, "fold");
+    write_fold(out, t, i);
     json_object_end(out);
 }
 
@@ -246,15 +263,20 @@ static void write_training(struct json_out *out, const struct training_out *t)
     json_object_end(out);
 }
 
+enum part { PART_TRAINED, PART_HELD, PART_FOLDS, PARTS };
+static const char *const part_name[PARTS] = {
+    [PART_TRAINED] = "trained", [PART_HELD] = "held", [PART_FOLDS] = "folds"};
+
 /* Root mean square over the moving records of a part, of the errors by their range. */
-static void write_part(struct json_out *out, const struct training_out *t, bool held,
-                       const char *key)
+static void write_part(struct json_out *out, const struct training_out *t, enum part part)
 {
     double cl = 0.0, cm = 0.0, cl_polar = 0.0, cm_polar = 0.0;
     int n = 0;
     for (int i = 0; i < t->result.n_record; i++) {
-        const struct assessment *a = &t->result.assessment[i];
-        if (t->result.is_held[i] == held && flow_record_moves(&t->data.record[i])) {
+        const struct assessment *a =
+            part == PART_FOLDS ? &t->result.fold[i] : &t->result.assessment[i];
+        if ((part == PART_FOLDS || t->result.is_held[i] == (part == PART_HELD)) &&
+            flow_record_moves(&t->data.record[i])) {
             cl += num_sq(a->network_cl / a->range_cl);
             cm += num_sq(a->network_cm / a->range_cm);
             cl_polar += num_sq(a->steady_cl / a->range_cl);
@@ -262,7 +284,7 @@ static void write_part(struct json_out *out, const struct training_out *t, bool 
             n++;
         }
     }
-    json_key(out, key);
+    json_key(out, part_name[part]);
     json_object_begin(out);
     json_key_integer(out, "moving_records", n);
     json_key_number(out, "cl_rms_of_range", sqrt(cl / n));
@@ -305,8 +327,9 @@ static void write_summary(struct json_out *out, const struct training_out *t,
     json_object_end(out);
     json_key_integer(out, "records", t->result.n_record);
     write_members(out, t);
-    write_part(out, t, false, "trained");
-    write_part(out, t, true, "held");
+    for (int part = 0; part < (t->result.fold != NULL ? PARTS : PART_FOLDS); part++) {
+        write_part(out, t, (enum part)part);
+    }
     json_key(out, "timing");
     json_object_begin(out);
     json_key_number(out, "cpu_s", timing->cpu_s);

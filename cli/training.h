@@ -7,22 +7,15 @@
 #include "cli/records.h"
 #include "cli/source.h"
 
-#include "core/network/assess.h"
-#include "core/network/ensemble.h"
+#include "core/network/training.h"
 
 struct training {
     struct sources sources;
     struct records records;
     struct failure_list *problems;
-    struct dataset_def dataset_def;
-    struct train_def def;
-    int members;       /* trainings whose mean is the network */
-    int folds;         /* parts of the records for cross-validation, 0: none */
-    int member_hidden; /* neurons of one member */
-    struct ensemble_member member[ENSEMBLE_MEMBERS_MAX];
+    struct training_def def;
+    struct training_result result; /* its network is in the entry */
     struct network_entry entry;
-    struct assessment *assessment; /* of the network (records.n) */
-    struct assessment *fold; /* of networks that have not seen the record (records.n), or NULL */
 };
 
 /* Reads the options. False after lines on stderr. */

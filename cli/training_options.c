@@ -85,16 +85,16 @@ static bool in_range(const char *option, int value, int least, int most)
 static bool set_counts(const struct options *o, struct training *t)
 {
     const int seed = options_whole(o->seed, 1);
-    t->members = options_whole(o->members, 1);
-    t->folds = options_whole(o->folds, 0);
-    t->dataset_def.samples_max = options_whole(o->samples, t->dataset_def.samples_max);
-    t->dataset_def.anchors = options_whole(o->anchors, t->dataset_def.anchors);
-    t->def.seed = t->dataset_def.seed = (uint64_t)(seed < 0 ? 0 : seed);
+    t->def.members = options_whole(o->members, t->def.members);
+    t->def.folds = options_whole(o->folds, t->def.folds);
+    t->def.data.samples_max = options_whole(o->samples, t->def.data.samples_max);
+    t->def.data.anchors = options_whole(o->anchors, t->def.data.anchors);
+    t->def.train.seed = t->def.data.seed = (uint64_t)(seed < 0 ? 0 : seed);
     return in_range("--seed", seed, 0, 1000000) &&
-           in_range("--members", t->members, 1, ENSEMBLE_MEMBERS_MAX) &&
-           (t->folds == 0 || in_range("--folds", t->folds, 2, 100)) &&
-           in_range("--samples", t->dataset_def.samples_max, 1, FLOW_SAMPLES_MAX) &&
-           in_range("--anchors", t->dataset_def.anchors, 0, FLOW_SAMPLES_MAX);
+           in_range("--members", t->def.members, 1, ENSEMBLE_MEMBERS_MAX) &&
+           (t->def.folds == 0 || in_range("--folds", t->def.folds, 2, TRAINING_FOLDS_MAX)) &&
+           in_range("--samples", t->def.data.samples_max, 1, FLOW_SAMPLES_MAX) &&
+           in_range("--anchors", t->def.data.anchors, 0, FLOW_SAMPLES_MAX);
 }
 
 static bool set_name(const char *name, struct network_def *net)
@@ -110,8 +110,8 @@ static bool set_name(const char *name, struct network_def *net)
 /* What only shows together: inputs without their lag or base, too many neurons. */
 static bool check(struct training *t)
 {
-    train_def_check(&t->def, t->member_hidden * t->members, t->problems);
-    network_def_check_frame(&t->entry.def, "", t->problems);
+    train_def_check(&t->def.train, t->def.network.n_hidden * t->def.members, t->problems);
+    network_def_check_frame(&t->def.network, "", t->problems);
     if (t->problems->total > 0) {
         report_failures(stderr, "train", t->problems);
     }
@@ -122,24 +122,20 @@ bool training_set(const struct options *o, struct training *t)
 {
     const char *optimiser = o->optimiser != NULL ? o->optimiser : "lm";
     const enum train_optimiser kind = train_optimiser_of(optimiser);
-    struct network_def *net = &t->entry.def;
+    struct network_def *net = &t->def.network;
     if (kind == TRAIN_OPTIMISERS) {
         (void)fprintf(stderr, "aerom: --optimiser: '%s' is not one of lm, adam\n", optimiser);
         return false;
     }
-    net->n_hidden = t->member_hidden = options_whole(o->hidden, 50);
-    net->n_out = 2;
-    net->output[0] = NET_OUT_CL;
-    net->output[1] = NET_OUT_CM;
-    train_def_defaults(kind, &t->def);
-    t->def.epochs = options_whole(o->epochs, t->def.epochs);
-    t->def.decay = options_given(o->decay, t->def.decay);
-    dataset_def_defaults(&t->dataset_def);
+    training_def_defaults(&t->def);
+    train_def_defaults(kind, &t->def.train);
+    net->n_hidden = options_whole(o->hidden, net->n_hidden);
+    t->def.train.epochs = options_whole(o->epochs, t->def.train.epochs);
+    t->def.train.decay = options_given(o->decay, t->def.train.decay);
     if (!set_name(o->name != NULL ? o->name : "trained", net) || !set_counts(o, t) ||
         !set_base(o->base, &net->frame) || !set_lags(o->lags, &net->frame) ||
         !set_inputs(o->inputs, net)) {
         return false;
     }
-    t->dataset_def.frame = net->frame;
     return check(t);
 }

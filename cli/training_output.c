@@ -10,21 +10,11 @@ static double work_of(const struct assess_work *w)
     return w->pitch + w->plunge;
 }
 
-/* Kept aside by every member: no one of them was trained on it. */
-static bool is_held(const struct training *t, int record)
-{
-    bool held = true;
-    for (int k = 0; k < t->members; k++) {
-        held = held && t->member[k].is_held[record];
-    }
-    return held;
-}
-
 static void print_curve(const struct training *t, int k)
 {
-    const struct ensemble_member *m = &t->member[k];
-    if (t->members > 1) {
-        (void)printf("# member %d of %d\n", k + 1, t->members);
+    const struct ensemble_member *m = &t->result.member[k];
+    if (t->result.n_member > 1) {
+        (void)printf("# member %d of %d\n", k + 1, t->result.n_member);
     }
     (void)printf("epoch,trained,held\n");
     for (int i = 0; i < m->curve.n; i++) {
@@ -46,23 +36,23 @@ static void print_rows(const struct training *t, const struct assessment *assess
         }
         (void)printf("%s,%s,%.5f,%.5f,%.5f,%.5f,%.5f,%.5f,%.6f,%.6f,%.6f,%.4f\n",
                      t->records.record[i].name,
-                     part != NULL ? part : (is_held(t, i) ? "held" : "trained"), a->network_cl,
-                     a->steady_cl, a->range_cl, a->network_cm, a->steady_cm, a->range_cm,
-                     work_of(&a->record), work_of(&a->network), work_of(&a->steady),
+                     part != NULL ? part : (t->result.is_held[i] ? "held" : "trained"),
+                     a->network_cl, a->steady_cl, a->range_cl, a->network_cm, a->steady_cm,
+                     a->range_cm, work_of(&a->record), work_of(&a->network), work_of(&a->steady),
                      assess_energy_error(&a->network, &a->record));
     }
 }
 
 bool training_print(const struct training *t)
 {
-    for (int k = 0; k < t->members; k++) {
+    for (int k = 0; k < t->result.n_member; k++) {
         print_curve(t, k);
     }
     (void)printf("record,part,cl_rms,cl_steady_rms,cl_range,cm_rms,cm_steady_rms,cm_range,work,"
                  "network_work,steady_work,energy_error\n");
-    print_rows(t, t->assessment, NULL);
-    if (t->fold != NULL) {
-        print_rows(t, t->fold, "fold");
+    print_rows(t, t->result.assessment, NULL);
+    if (t->result.fold != NULL) {
+        print_rows(t, t->result.fold, "fold");
     }
     return fflush(stdout) == 0 && !ferror(stdout);
 }
@@ -72,7 +62,7 @@ static void write_names(const struct training *t, bool held, const char *key, st
     json_key(out, key);
     json_array_begin(out);
     for (int i = 0; i < t->records.n; i++) {
-        if (is_held(t, i) == held) {
+        if (t->result.is_held[i] == held) {
             json_string(out, t->records.record[i].name);
         }
     }
@@ -83,11 +73,11 @@ static void write_members(const struct training *t, struct json_out *out)
 {
     json_key(out, "members");
     json_array_begin(out);
-    for (int k = 0; k < t->members; k++) {
-        const struct ensemble_member *m = &t->member[k];
+    for (int k = 0; k < t->result.n_member; k++) {
+        const struct ensemble_member *m = &t->result.member[k];
         json_object_begin(out);
-        json_key_integer(out, "hidden", t->member_hidden);
-        json_key_integer(out, "seed", (long long)t->def.seed + k);
+        json_key_integer(out, "hidden", t->def.network.n_hidden);
+        json_key_integer(out, "seed", (long long)t->def.train.seed + k);
         json_key_integer(out, "samples_trained", m->n_trained);
         json_key_integer(out, "samples_held", m->n_held);
         json_key_integer(out, "epochs", m->curve.n - 1);
@@ -102,19 +92,19 @@ static void write_members(const struct training *t, struct json_out *out)
 /* What the numbers come from: enough to make them again. */
 static char *provenance(const struct training *t)
 {
-    const struct polar_def *polar = t->dataset_def.polar;
+    const struct polar_def *polar = t->def.data.polar;
     struct json_out out = {0};
     json_object_begin(&out);
     json_key_string(&out, "made_by", "aerom train");
     json_key_string(&out, "core_version", AEROM_CORE_VERSION);
     json_key_string(&out, "polar", polar->name);
     json_key_string(&out, "polar_hash", polar->hash);
-    json_key_number(&out, "window_c_v", t->dataset_def.window);
-    json_key_integer(&out, "samples_max", t->dataset_def.samples_max);
-    json_key_integer(&out, "anchors", t->dataset_def.anchors);
-    json_key_string(&out, "optimiser", train_optimiser_name(t->def.optimiser));
-    json_key_integer(&out, "seed", (long long)t->def.seed);
-    json_key_number(&out, "decay", t->def.decay);
+    json_key_number(&out, "window_c_v", t->def.data.window);
+    json_key_integer(&out, "samples_max", t->def.data.samples_max);
+    json_key_integer(&out, "anchors", t->def.data.anchors);
+    json_key_string(&out, "optimiser", train_optimiser_name(t->def.train.optimiser));
+    json_key_integer(&out, "seed", (long long)t->def.train.seed);
+    json_key_number(&out, "decay", t->def.train.decay);
     write_members(t, &out);
     write_names(t, false, "records_trained", &out);
     write_names(t, true, "records_held", &out);

@@ -115,8 +115,8 @@ enum status ensemble_train(const struct dataset_def *data_def, const struct trai
         struct dataset_def own_data = *data_def;
         struct train_def own = *def;
         struct sim_control part = control != NULL ? *control : (struct sim_control){.part = 0};
-        part.part = n;
-        part.parts = members;
+        part.part = part.part * members + n;
+        part.parts = (part.parts > 0 ? part.parts : 1) * members;
         own_data.seed += (uint64_t)n;
         own.seed += (uint64_t)n;
         trained[n] = *net;

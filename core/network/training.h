@@ -9,11 +9,14 @@
 #include "core/network/assess.h"
 #include "core/network/ensemble.h"
 
+enum { TRAINING_FOLDS_MAX = 100 };
+
 struct training_def {
     struct dataset_def data; /* its frame is that of the network */
     struct train_def train;
     struct network_def network; /* name, frame, inputs, outputs, n_hidden of a member; else empty */
     int members;                /* trainings whose mean is the network, 1..ENSEMBLE_MEMBERS_MAX */
+    int folds;                  /* of the cross-validation, 2..TRAINING_FOLDS_MAX; 0: none */
 };
 
 struct training_result {
@@ -22,6 +25,9 @@ struct training_result {
     struct ensemble_member *member; /* (n_member) */
     bool *is_held;                  /* by every member: none was trained on it (n_record) */
     struct assessment *assessment;  /* (n_record) */
+    /* Of networks that have not seen the record (n_record), ranges zero where it is at rest; NULL
+     * without folds. */
+    struct assessment *fold;
 };
 
 /* Polar without a network, defaults of Levenberg-Marquardt, the four inputs of App. B, c_l and c_m,

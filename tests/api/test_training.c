@@ -141,7 +141,7 @@ static void test_lags_and_members(void **state)
     struct fixture *f = *state;
     struct api_case *two, *one;
     struct training_out *pair, *single;
-    compute(f, LAG_CASE(",\"members\":2"), &two, &pair);
+    compute(f, LAG_CASE(",\"members\":2,\"folds\":2"), &two, &pair);
     compute(f, LAG_CASE(",\"seed\":2"), &one, &single);
     cJSON *curves = document(f, pair, "training", "#/components/schemas/TrainingResult");
     cJSON *alone = document(f, single, "training", "#/components/schemas/TrainingResult");
@@ -149,8 +149,19 @@ static void test_lags_and_members(void **state)
     const cJSON *second = cJSON_GetArrayItem(at(curves, "members"), 1);
     assert_true(cJSON_Compare(second, cJSON_GetArrayItem(at(alone, "members"), 0), true));
     assert_int_equal(at(second, "seed")->valueint, 2);
+    const cJSON *record = NULL;
+    int folded = 0;
+    cJSON_ArrayForEach(record, at(curves, "records"))
+    {
+        folded += cJSON_IsObject(at(record, "fold"));
+    }
+    assert_null(cJSON_GetObjectItem(cJSON_GetArrayItem(at(alone, "records"), 0), "fold")->child);
     cJSON *summary = document(f, pair, "summary", "#/components/schemas/SummaryTraining");
     assert_int_equal(cJSON_GetArraySize(at(summary, "members")), 2);
+    /* Every record that moves has been left out once. */
+    assert_int_equal(at(at(summary, "folds"), "moving_records")->valueint, folded);
+    assert_int_equal(folded, at(at(summary, "held"), "moving_records")->valueint +
+                                 at(at(summary, "trained"), "moving_records")->valueint);
 
     char *network = check(f, pair, "network", "#/components/schemas/Network");
     struct entry_set set = {0};
@@ -182,6 +193,7 @@ static void test_refusals(void **state)
         {CASE(",\"lags_c_v\":[1,0]"), "/training/lags_c_v/1", "out_of_range"},
         {CASE(",\"lags_c_v\":[1,2,3,4,5]"), "/training/lags_c_v", "wrong_length"},
         {CASE(",\"members\":0"), "/training/members", "out_of_range"},
+        {CASE(",\"folds\":1"), "/training/folds", "out_of_range"},
         {CASE(",\"members\":65"), "/training/members", "out_of_range"},
         {"{\"schema_version\":1,\"kind\":\"training\",\"training\":{\"network\":\"big\","
          "\"dataset\":"
