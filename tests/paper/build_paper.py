@@ -140,6 +140,24 @@ def convergence_table(rows):
                 number(None if row["damping"] is None else 100.0 * row["damping"], "%.2f")) for row in at))
 
 
+def draw_convergence(rows):
+    """Change of the mean tip twist and of the damping of torsion against the finest choice."""
+    panels = []
+    for k, (name, _, values) in enumerate(results.CONVERGENCE):
+        values = sorted(values)
+        panel = svg.Panel(80 + 310 * k, 30, 230, 260, svg.Axis.of(values, log=True, label=name),
+                          svg.Axis(-10.0, 10.0, label="against the finest [%]" if k == 0 else ""))
+        finest = values[0] if "step" in name else values[-1]
+        for point, colour in zip(results.CONVERGENCE_POINTS, COLOURS):
+            at = {row["value"]: row for row in rows if row["name"] == name and (row["angle"], row["speed"]) == point}
+            for result, dash in (("twist", ""), ("plunge", "5 3")):
+                panel.curve(values, [100.0 * (at[v][result] / at[finest][result] - 1.0) for v in values], colour, 2,
+                            dash=dash)
+        panels.append(panel)
+    write("convergence", svg.document(1000, 390, "Convergence of mean tip twist and plunge", panels + svg.legend(
+        [(colour, "%d deg, %g m/s" % point) for point, colour in zip(results.CONVERGENCE_POINTS, COLOURS)], 80, 365, 190)))
+
+
 def modal_table(moments):
     yield "| speed [m/s] | fibres [deg] | position, modes 1 to 4 [%] | velocity, modes 1 to 4 [%] | verdict |"
     yield "|---|---|---|---|---|"
@@ -215,6 +233,7 @@ def main():
     draw_signals(moments)
     draw_loads(next(iter(moments.values())))
     draw_boundaries(curves)
+    draw_convergence(converged)
     tables = {"boundaries": boundary_table(curves), "sensitivity": sensitivity_table(rows),
               "convergence": convergence_table(converged), "modal": modal_table(moments),
               "rise": rise_table(found, curves, arguments.model)}

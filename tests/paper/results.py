@@ -30,6 +30,8 @@ SENSITIVITY = (
     ("lifting line with both side walls", (("/aerodynamics/lifting_line", {"walls": "root_and_far", "width_m": 0.4}),)),
     ("without side walls", (("/aerodynamics/lifting_line", {"walls": "none"}),)),
     ("no lifting line", (("/aerodynamics/lifting_line", None),)),
+    ("linear polar of a thin plate, attached flow", (("/aerodynamics/polar", "flat-plate-linear"),
+                                                     ("/aerodynamics/dynamic", {"type": "attached"}))),
     ("incidence 3 deg", (("/flow/incidence_deg", 3),)),
     ("incidence 7 deg", (("/flow/incidence_deg", 7),)),
     ("incidence 9 deg", (("/flow/incidence_deg", 9),)),
