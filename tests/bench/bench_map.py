@@ -19,6 +19,9 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "e2e"))
+from daemon import Daemon  # noqa: E402
+
 POLL_S = 0.2
 SHIPPED = "plate-4pct"
 
@@ -66,12 +69,8 @@ def own_seconds(daemon, job, cells):
 
 
 def measure(binary, body, workers):
-    os.environ["AEROMD"] = str(Path(binary).resolve() / "aeromd")
-    sys.path.insert(0, str(ROOT))
-    from tests.e2e.daemon import Daemon  # reads AEROMD when it is loaded
-
     with tempfile.TemporaryDirectory(prefix="aerom-map-") as folder:
-        daemon = Daemon(folder, "--workers", str(workers)).wait_ready()
+        daemon = Daemon(folder, "--workers", str(workers), program=str(Path(binary) / "aeromd")).wait_ready()
         try:
             idle, start = processor_seconds(daemon.process.pid), time.monotonic()
             status, _, answer = daemon.request("POST", "/v1/studies", body)

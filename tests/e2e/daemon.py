@@ -17,10 +17,10 @@ SANITIZER = re.compile(r"(WARNING: ThreadSanitizer|ERROR: (Address|Leak)Sanitize
 class Daemon:
     """One process on port 0; `log` collects what it writes to stderr."""
 
-    def __init__(self, directory, *flags, env=None, limit=None):
+    def __init__(self, directory, *flags, env=None, limit=None, program=AEROMD):
         self.log_path = os.path.join(directory, f"log-{time.monotonic_ns()}")
         self.store = os.path.join(directory, "a.db")
-        command = [AEROMD, "--listen", "127.0.0.1:0", "--store", "sqlite:" + self.store,
+        command = [program, "--listen", "127.0.0.1:0", "--store", "sqlite:" + self.store,
                    "--disk-reserve-mb", "1", *flags]
         with open(self.log_path, "wb") as log:
             self.process = subprocess.Popen(command, stderr=log, preexec_fn=limit,

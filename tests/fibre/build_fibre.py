@@ -7,12 +7,12 @@ Prints the table of the guide. Python 3 standard library."""
 
 import argparse
 import json
-import subprocess
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "support"))
+import ask  # noqa: E402
 import svg  # noqa: E402
 
 CASE = ROOT / "data" / "cases" / "paper-beam-stability.json"
@@ -25,8 +25,7 @@ SLOW, FAST = 10.0, 22.0
 def answer(aerom, angle):
     case = json.loads(CASE.read_text(encoding="utf-8"))
     case["beam"]["section"]["layup"][0]["angle_deg"] = angle
-    result = subprocess.run([aerom, "run", "-"], input=json.dumps(case), text=True, capture_output=True, check=True)
-    return json.loads(result.stdout)
+    return ask.document(aerom, case)
 
 
 def speeds(aerom):

@@ -8,11 +8,8 @@ Frequency, growth and limit cycle come from the turning points of the angle, of 
 alike; the onset is where the growth of small swings changes sign. Python 3 standard library."""
 
 import argparse
-import csv
-import json
 import math
 import statistics
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -20,6 +17,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "loops"))
 import build_loops  # noqa: E402
+import ask  # noqa: E402
 import svg  # noqa: E402
 
 FREE = ROOT / "data" / "cfd" / "free"
@@ -86,14 +84,12 @@ def limit_cycle(found):
 
 
 def index_rows():
-    with open(FREE / "index.csv", newline="", encoding="ascii") as file:
-        return [row for row in csv.DictReader(file) if row["status"] != "failed"]
+    return [row for row in ask.rows(FREE / "index.csv") if row["status"] != "failed"]
 
 
 def record_of(row):
-    with open(FREE / "records" / (row["name"] + ".csv"), newline="", encoding="ascii") as file:
-        lines = list(csv.DictReader(file))
-    return {key: [float(line[key]) for line in lines] for key in ("t", "alpha_deg", "w")}
+    lines = ask.record(FREE / "records" / (row["name"] + ".csv"))
+    return {key: [line[key] for line in lines] for key in ("t", "alpha_deg", "w")}
 
 
 def march(aerom, options, polar, row, **changes):
@@ -103,14 +99,10 @@ def march(aerom, options, polar, row, **changes):
                "pitch_damping": row["zeta_pitch"], "rest_deg": row["mean_deg"],
                "pitch_rate_deg": row["start_deg_per_t"], "duration": row["end"], "step": "0.02"}
     section.update(changes)
-    command = [aerom, "free", *("%s=%s" % item for item in section.items()), *options, "--polar", str(polar)]
-    result = subprocess.run(command, capture_output=True, text=True, check=False)
-    if result.returncode != 0:
-        raise SystemExit("%s\n%s" % (" ".join(command), result.stderr))
-    lines = result.stdout.splitlines()
-    rows = list(csv.reader(lines[1:-1]))
-    series = {key: [float(r[k]) for r in rows] for k, key in ((0, "t"), (1, "alpha_deg"), (2, "w"))}
-    return series, lines[-1].split()[2]
+    lines = ask.run(aerom, "free", *("%s=%s" % item for item in section.items()), *options, "--polar",
+                    polar).splitlines()
+    rows = ask.numbers(lines[:-1])
+    return {key: [row[key] for row in rows] for key in ("t", "alpha_deg", "w")}, lines[-1].split()[2]
 
 
 def small_growth(aerom, options, polar, row, frequency):

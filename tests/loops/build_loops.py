@@ -8,11 +8,9 @@ Every sine and broadband record of the index in the middle of the channel at Re 
 record, of the others all samples after the start. Python 3 standard library."""
 
 import argparse
-import csv
 import json
 import math
 import statistics
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -21,6 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 CFD = ROOT / "data" / "cfd"
 sys.path.insert(0, str(CFD / "campaign"))
 sys.path.insert(0, str(ROOT / "tests" / "support"))
+import ask  # noqa: E402
 import build_harmonics  # noqa: E402
 import motion  # noqa: E402
 import svg  # noqa: E402
@@ -43,10 +42,8 @@ DRAWN = ("pitch_m0_a1_f0.125", "pitch_m2.5_a5_f0.125", "pitch_m5_a7_f0.25", "pit
 
 def index_rows(kind):
     """Lines of the index that are comparable, of the blocks of one kind, in the order of the design."""
-    with open(CFD / "index.csv", newline="", encoding="ascii") as file:
-        rows = list(csv.DictReader(file))
-    return [row for row in rows if row["status"] == "done" and row["block"].startswith(kind)
-            and float(row["plunge_c"]) == 0.0 and row["re"] == "20000"]
+    return [row for row in ask.rows(CFD / "index.csv") if row["status"] == "done"
+            and row["block"].startswith(kind) and float(row["plunge_c"]) == 0.0 and row["re"] == "20000"]
 
 
 def sine_rows():
@@ -86,21 +83,17 @@ def work(cycle, pitch, plunge):
 def model_cycle(aerom, options, polar, row, pitch, plunge):
     """The last cycle of a model, at the phases of the record."""
     frequency = (pitch or plunge)[1]
-    command = [aerom, "loop", *options, "--polar", str(polar), "--mean-deg", row["mean_deg"],
-               "--frequency", "%r" % frequency, "--cycles", str(CYCLES), "--steps", str(2 * POINTS)]
+    options = [*options, "--polar", polar, "--mean-deg", row["mean_deg"], "--frequency", "%r" % frequency,
+               "--cycles", CYCLES, "--steps", 2 * POINTS]
     shift = pitch[2] if pitch else 0.0  # the command counts phase from that of the pitch
     if pitch:
-        command += ["--amplitude-deg", "%r" % pitch[0]]
+        options += ["--amplitude-deg", "%r" % pitch[0]]
     if plunge:
-        command += ["--plunge", "%r" % plunge[0], "--phase-deg", "%r" % math.degrees(plunge[2] - shift)]
-    result = subprocess.run(command, capture_output=True, text=True, check=False)
-    if result.returncode != 0:
-        raise SystemExit("%s\n%s" % (" ".join(command), result.stderr))
-    lines = result.stdout.splitlines()[:-1]
-    last = list(csv.DictReader(lines))[-2 * POINTS - 1:-1][::2]
+        options += ["--plunge", "%r" % plunge[0], "--phase-deg", "%r" % math.degrees(plunge[2] - shift)]
+    last = ask.loop(aerom, *options)[-2 * POINTS - 1:-1][::2]
     turn = round(shift / (2.0 * math.pi) * POINTS)
     last = last[turn:] + last[:turn]
-    return {key: [float(point[key]) for point in last] for key in ("cl", "cd", "cm")}
+    return {key: [point[key] for point in last] for key in ("cl", "cd", "cm")}
 
 
 def misfit(model, reference, key):
@@ -139,8 +132,7 @@ def compare(aerom, row, own):
 def compare_broadband(aerom, row, own):
     """Misfits over a whole record, and the mean power of the flow on the motion."""
     path = CFD / "records" / (row["name"] + ".csv")
-    with open(path, newline="", encoding="ascii") as file:
-        record = [{k: float(v) for k, v in line.items()} for line in csv.DictReader(file)]
+    record = ask.record(path)
     first = next(i for i, line in enumerate(record) if line["t"] >= SETTLED)
 
     def series(lines):
@@ -151,14 +143,7 @@ def compare_broadband(aerom, row, own):
 
     result = {"row": row, "cfd": series(record)}
     for key, options, _, _ in MODELS:
-        command = [aerom, "loop", *options, "--polar", str(own if key == "own" else POLAR), "--motion",
-                   str(path)]
-        run = subprocess.run(command, capture_output=True, text=True, check=False)
-        if run.returncode != 0:
-            raise SystemExit("%s\n%s" % (" ".join(command), run.stderr))
-        lines = [{k: float(v) for k, v in line.items()}
-                 for line in csv.DictReader(run.stdout.splitlines()[:-1])]
-        answer = series(lines)
+        answer = series(ask.loop(aerom, *options, "--polar", own if key == "own" else POLAR, "--motion", path))
         result[key] = {"power": answer["power"],
                        "misfit": {c: misfit(answer, result["cfd"], c) for c in ("cl", "cd", "cm")}}
     return result

@@ -3,7 +3,6 @@
 import copy
 import json
 import math
-import os
 import sys
 import tempfile
 import time
@@ -11,6 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "e2e"))
+import daemon  # noqa: E402
 
 CASE = ROOT / "data" / "cases" / "paper-beam.json"
 ANGLE, SPEED, DYNAMIC = "/beam/section/layup/0/angle_deg", "/flow/speed_m_s", "/aerodynamics/dynamic"
@@ -52,17 +52,14 @@ class Service:
     """A daemon in a folder that goes with it."""
 
     def __init__(self, aeromd, workers):
-        os.environ["AEROMD"] = aeromd
-        import daemon  # takes the program from the environment
         self.folder = tempfile.TemporaryDirectory()
-        self.daemon = daemon.Daemon(self.folder.name, "--workers", str(workers)).wait_ready()
+        self.daemon = daemon.Daemon(self.folder.name, "--workers", str(workers), program=aeromd).wait_ready()
 
     def __enter__(self):
         return self
 
     def __exit__(self, *exc):
-        self.daemon.process.terminate()
-        self.daemon.process.wait(60)
+        self.daemon.stop()
         self.folder.cleanup()
 
     def get(self, path):

@@ -13,12 +13,16 @@ import csv
 import json
 import math
 import statistics
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "loops"))
+import build_loops  # noqa: E402
+import ask  # noqa: E402
+import motion  # noqa: E402
+
 CFD = ROOT / "data" / "cfd"
 PAGE = ROOT / "docs" / "PLATE_NETWORK.md"
 NETWORK = ROOT / "data" / "networks" / "plate-4pct.json"
@@ -34,16 +38,8 @@ DURATION = 2.0
 UNDECIDED = 3e-4
 
 
-def run(command):
-    result = subprocess.run([str(c) for c in command], capture_output=True, text=True, check=False)
-    if result.returncode != 0:
-        raise SystemExit("%s\n%s" % (" ".join(str(c) for c in command), result.stderr))
-    return result.stdout
-
-
 def index():
-    with open(CFD / "index.csv", newline="", encoding="ascii") as file:
-        return {row["name"]: row for row in csv.DictReader(file)}
+    return {row["name"]: row for row in ask.rows(CFD / "index.csv")}
 
 
 def fold_rows(text):
@@ -52,12 +48,11 @@ def fold_rows(text):
     return {row["record"]: row for row in csv.DictReader(table.splitlines()) if row["part"] == "fold"}
 
 
-def cross_validated(aerom, folder):
-    other = Path(folder) / "net.json"
-    lags = run([ROOT / "data" / "networks" / "train_plate_4pct.sh", aerom, "--folds", FOLDS, "--output",
-                other])
-    paper = run([aerom, "train", CFD, "--output", other, "--hidden", "50", "--samples", "60", "--folds",
-                 FOLDS])
+def cross_validated(aerom):
+    with tempfile.TemporaryDirectory() as folder:
+        options = ("--folds", FOLDS, "--output", Path(folder) / "net.json")
+        lags = ask.run(ROOT / "data" / "networks" / "train_plate_4pct.sh", aerom, *options)
+        paper = ask.run(aerom, "train", CFD, "--hidden", "50", "--samples", "60", *options)
     return {"lags": fold_rows(lags), "paper": fold_rows(paper)}
 
 
@@ -67,16 +62,11 @@ def saved(folder):
             if path.exists()}
 
 
-def read(path):
-    with open(path, newline="", encoding="ascii") as file:
-        return [{k: float(v) for k, v in line.items()} for line in csv.DictReader(file)]
-
-
 def frequency_of(row):
     """Of a sine; None for a broadband record."""
-    found = {term.split("@")[1].split("+")[0] for column in ("pitch", "plunge")
-             for term in row[column].split()}
-    return float(found.pop()) if len(found) == 1 and not any(">" in f for f in found) else None
+    found = {term[1:3] for column in ("pitch", "plunge") for term in motion.parse(row[column])}
+    first, last = found.pop() if len(found) == 1 else (None, None)
+    return first if last is None else None
 
 
 def window(row, record):
@@ -103,20 +93,17 @@ def work(record, answer, begin, periods):
 def model_errors(aerom, row):
     """Misfits in per cent of the range, and works per period, of the models without training."""
     path = CFD / "records" / (row["name"] + ".csv")
-    record = read(path)
+    record = ask.record(path)
     first, begin, periods = window(row, record)
     item = {"name": row["name"], "row": row, "frequency": frequency_of(row),
             "peak": max(abs(line["alpha_deg"] - math.degrees(line["w_dot"])) for line in record[first:]),
             "work": work(record, record, begin, periods)}
     for key, _ in MODELS:
-        text = run([aerom, "loop", "--dynamic", key, "--motion", path])
-        answer = [{k: float(v) for k, v in line.items()}
-                  for line in csv.DictReader(text.splitlines()[:-1])]
+        answer = ask.loop(aerom, "--dynamic", key, "--motion", path)
         item[key] = {"work": work(record, answer, begin, periods)}
         for c in ("cl", "cm"):
-            values = [line[c] for line in record[first:]]
-            square = statistics.fmean((a[c] - b) ** 2 for a, b in zip(answer[first:], values))
-            item[key][c] = 100.0 * math.sqrt(square) / (max(values) - min(values))
+            model, reference = ({c: [line[c] for line in lines[first:]]} for lines in (answer, record))
+            item[key][c] = build_loops.misfit(model, reference, c)
     return item
 
 
@@ -195,16 +182,15 @@ def record_table(items):
 
 def loop_harmonics(aerom, dynamic, frequency, amplitude):
     """Complex c_l and c_m of small pitch about 0 deg, per radian of the angle."""
-    text = run([aerom, "loop", *dynamic, "--amplitude-deg", amplitude, "--frequency", frequency,
-                "--cycles", 12, "--steps", 200])
-    rows = list(csv.DictReader(text.splitlines()[:-1]))[-200:]
+    rows = ask.loop(aerom, *dynamic, "--amplitude-deg", amplitude, "--frequency", frequency, "--cycles", 12,
+                    "--steps", 200)[-200:]
     result = {}
     for c in ("cl", "cm"):
         inphase = out = 0.0
         for k, row in enumerate(rows):
             psi = 2.0 * math.pi * (k + 1) / 200
-            inphase += float(row[c]) * math.sin(psi) / 100
-            out += float(row[c]) * math.cos(psi) / 100
+            inphase += row[c] * math.sin(psi) / 100
+            out += row[c] * math.cos(psi) / 100
         result[c] = complex(inphase, out) / math.radians(amplitude)
     return result
 
@@ -224,7 +210,7 @@ def small_table(aerom):
 
 def computed_small():
     """The same of the record with the smallest pitch about 0 deg."""
-    record = read(CFD / "records" / "pitch_m0_a1_f0.125.csv")
+    record = ask.record(CFD / "records" / "pitch_m0_a1_f0.125.csv")
     first, begin, periods = window(index()["pitch_m0_a1_f0.125"], record)
     omega, n = 2.0 * math.pi * 0.125, len(record) - 1 - begin
     size = max(line["alpha_dot"] for line in record[first:]) / omega
@@ -241,23 +227,21 @@ def rest_error(aerom):
     """Largest increment in steady flow from 0 to 16 deg, in c_l and c_m."""
     worst = {"cl": 0.0, "cm": 0.0}
     for angle in [0.5 * k for k in range(33)]:
-        rows = [run([aerom, "loop", *dynamic, "--mean-deg", angle, "--frequency", 0.1, "--cycles", 1,
-                     "--steps", 16]).splitlines()[1].split(",")
-                for dynamic in (("--dynamic", "none"), ("--dynamic", "network", "--network", "plate-4pct"))]
-        worst["cl"] = max(worst["cl"], abs(float(rows[0][3]) - float(rows[1][3])))
-        worst["cm"] = max(worst["cm"], abs(float(rows[0][5]) - float(rows[1][5])))
+        steady, network = (ask.loop(aerom, *dynamic, "--mean-deg", angle, "--frequency", 0.1, "--cycles", 1,
+                                    "--steps", 16)[0]
+                           for dynamic in (("--dynamic", "none"),
+                                           ("--dynamic", "network", "--network", "plate-4pct")))
+        worst = {c: max(worst[c], abs(steady[c] - network[c])) for c in worst}
     return worst
 
 
-def march(aerom, folder, angle, speed, step, dynamic):
+def march(aerom, angle, speed, step, dynamic):
     case = json.loads((ROOT / "data" / "cases" / "paper-beam.json").read_text(encoding="utf-8"))
     case["beam"]["section"]["layup"][0]["angle_deg"] = angle
     case["flow"]["speed_m_s"] = speed
     case["solver"].update(time_step_s=step, duration_s=DURATION)
     case["aerodynamics"]["dynamic"] = dynamic
-    path = Path(folder) / "case.json"
-    path.write_text(json.dumps(case), encoding="utf-8")
-    return json.loads(run([aerom, "run", path]))
+    return ask.document(aerom, case)
 
 
 SHIPPED = {"type": "network", "name": "plate-4pct"}
@@ -268,14 +252,14 @@ def torsion(summary):
     return "-" if root is None else "%.1f Hz, %+.3f" % (root["frequency_hz"], root["ratio"])
 
 
-def beam_table(aerom, folder):
+def beam_table(aerom):
     """Lines of the table, and the largest shares."""
     elements = 16
     lines, worst_hull, worst_turns, differ = [], 0.0, 0.0, 0
     for angle in ANGLES:
         for speed in SPEEDS:
-            runs = [march(aerom, folder, angle, speed, step, SHIPPED) for step in STEPS]
-            base = march(aerom, folder, angle, speed, STEPS[0], {"type": "dynamic_stall"})
+            runs = [march(aerom, angle, speed, step, SHIPPED) for step in STEPS]
+            base = march(aerom, angle, speed, STEPS[0], {"type": "dynamic_stall"})
             hull = [100.0 * r["counters"]["outside_hull"] / ((r["timing"]["steps"] + 1) * elements)
                     for r in runs]
             turns = [100.0 * r["counters"]["load_alternations"] / r["timing"]["steps"] for r in runs]
@@ -288,16 +272,16 @@ def beam_table(aerom, folder):
     return lines, worst_hull, worst_turns, differ
 
 
-def cost_lines(aerom, folder):
+def cost_lines(aerom):
     """Processor time of a march for each station and step, the lifting line and the modes with it."""
     for name, dynamic in (("quasi-steady", {"type": "none"}), ("attached", {"type": "attached"}),
                           ("dynamic stall", {"type": "dynamic_stall"}), ("network", SHIPPED)):
-        best = min(march(aerom, folder, -45, 5.0, 2e-4, dynamic)["timing"]["us_per_step"]
+        best = min(march(aerom, -45, 5.0, 2e-4, dynamic)["timing"]["us_per_step"]
                    for _ in range(3))
         yield "| %s | %.0f |" % (name, 1000.0 * best / 16)
 
 
-def page(aerom, folder, folds):
+def page(aerom, folds):
     before, small, beam, cost, after = Path(__file__).with_name("text.md").read_text(
         encoding="utf-8").split("<!-- numbers -->\n")
     items = collect(aerom, folds)
@@ -322,7 +306,7 @@ def page(aerom, folder, folds):
     yield ""
     yield beam.strip("\n")
     yield ""
-    lines, hull, turns, differ = beam_table(aerom, folder)
+    lines, hull, turns, differ = beam_table(aerom)
     yield ("Largest share outside the hull %.2f %%, of steps at which the load turns back %.2f %%; verdicts that "
            "differ between the time steps: %d of %d." % (hull, turns, differ, len(lines)))
     yield ""
@@ -335,7 +319,7 @@ def page(aerom, folder, folds):
     yield ""
     yield "| model | ns |"
     yield "|---|---|"
-    yield from cost_lines(aerom, folder)
+    yield from cost_lines(aerom)
     yield ""
     yield after.strip("\n")
     yield ""
@@ -347,10 +331,8 @@ def main():
     parser.add_argument("--aerom", default=str(ROOT / "build" / "release" / "bin" / "aerom"))
     parser.add_argument("--saved", metavar="FOLDER")
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        folds = saved(arguments.saved) if arguments.saved else cross_validated(arguments.aerom, folder)
-        text = "\n".join(page(arguments.aerom, folder, folds)) + "\n"
-    PAGE.write_text(text, encoding="utf-8")
+    folds = saved(arguments.saved) if arguments.saved else cross_validated(arguments.aerom)
+    PAGE.write_text("\n".join(page(arguments.aerom, folds)) + "\n", encoding="utf-8")
     return 0
 
 

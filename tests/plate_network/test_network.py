@@ -5,18 +5,17 @@ standard library."""
 
 import json
 import os
-import tempfile
 import unittest
 
 import build_network
+import ask
 
 AEROM = os.environ["AEROM"]
 
 
 class Network(unittest.TestCase):
     def march(self, angle, speed, step):
-        with tempfile.TemporaryDirectory() as folder:
-            return build_network.march(AEROM, folder, angle, speed, step, build_network.SHIPPED)
+        return build_network.march(AEROM, angle, speed, step, build_network.SHIPPED)
 
     def test_it_adds_to_the_shipped_polar(self):
         document = json.loads(build_network.NETWORK.read_text(encoding="utf-8"))
@@ -34,9 +33,8 @@ class Network(unittest.TestCase):
                                                        ("through stall", 8, 6, 0.06, 1.0),
                                                        ("fast", 5, 7, 0.25, -1.0)):
             with self.subTest(name=name):
-                text = build_network.run([AEROM, "loop", "--dynamic", "network", "--network",
-                                          "plate-4pct", "--mean-deg", mean, "--amplitude-deg",
-                                          amplitude, "--frequency", frequency, "--cycles", 6])
+                text = ask.run(AEROM, "loop", "--dynamic", "network", "--network", "plate-4pct", "--mean-deg", mean,
+                               "--amplitude-deg", amplitude, "--frequency", frequency, "--cycles", 6)
                 self.assertGreater(sign * float(text.splitlines()[-1].split()[2]), 0.0)
 
     def test_marches_stay_in_the_hull_and_do_not_follow_their_step(self):

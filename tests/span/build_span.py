@@ -7,12 +7,12 @@ Prints the table of the guide. Python 3 standard library."""
 
 import argparse
 import json
-import subprocess
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "support"))
+import ask  # noqa: E402
 import svg  # noqa: E402
 
 CASE = ROOT / "data" / "cases" / "paper-beam.json"
@@ -29,12 +29,6 @@ PANELS = (  # left, key, title, top of the scale
 )
 
 
-def document(aerom, case, name):
-    result = subprocess.run([aerom, "run", "-", "--document", name], input=json.dumps(case), text=True,
-                            capture_output=True, check=True)
-    return json.loads(result.stdout)
-
-
 def variants(aerom):
     """(name, colour, means, loads) of the beam at rest in the stream, below stall."""
     case = json.loads(CASE.read_text(encoding="utf-8"))
@@ -43,8 +37,8 @@ def variants(aerom):
     found = []
     for name, lifting_line, colour in VARIANTS:
         case["aerodynamics"]["lifting_line"] = lifting_line
-        found.append((name, colour, document(aerom, case, "summary")["means"],
-                      document(aerom, case, "loads")))
+        found.append((name, colour, ask.document(aerom, case)["means"],
+                      ask.document(aerom, case, "--document", "loads")))
     return found
 
 

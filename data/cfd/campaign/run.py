@@ -158,24 +158,34 @@ def worker(queue, shell_setup):
             account["courant_max"], account["note"]), flush=True)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+def options_of(description):
+    """Options of every runner."""
+    parser = argparse.ArgumentParser(description=description.split("\n", 1)[0])
     parser.add_argument("--work", type=Path, default=Path("/var/tmp/aeromd-cfd"),
                         help="folder to compute in (default: %(default)s)")
     parser.add_argument("--jobs", type=int, default=2, help="runs at a time, one core each")
     parser.add_argument("--only", default="", metavar="REGEX", help="only runs whose name matches")
+    return parser
+
+
+def side_by_side(jobs, work):
+    """Calls work() in `jobs` threads and waits for them; Ctrl-C ends them all."""
+    threads = [threading.Thread(target=work, daemon=True) for _ in range(jobs)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+
+
+def main():
+    parser = options_of(__doc__)
     parser.add_argument("--limit", type=int, default=None, metavar="N", help="stop after N runs")
     parser.add_argument("--setup", default="/usr/share/openfoam/etc/bashrc", metavar="FILE",
                         help="shell set-up of OpenFOAM (default: %(default)s)")
     arguments = parser.parse_args()
     (arguments.work / "done").mkdir(parents=True, exist_ok=True)
     queue = Queue(arguments.work, arguments.only, arguments.limit)
-    threads = [threading.Thread(target=worker, args=(queue, arguments.setup), daemon=True)
-               for _ in range(arguments.jobs)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    side_by_side(arguments.jobs, lambda: worker(queue, arguments.setup))
     return 0
 
 

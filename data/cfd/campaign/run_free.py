@@ -7,8 +7,6 @@ As run.py: everything is computed below --work, and a finished run leaves its re
 its line in ../free/index.csv. The solver's own rigid body moves the section: explicit, so that the loads
 come one step late (`free_case.py`)."""
 
-import argparse
-import csv
 import math
 import re
 import shutil
@@ -20,7 +18,8 @@ import case
 import free_case
 import record
 from collect import read_table, text_of
-from run import START_FIELDS, Solver, courant_max, last_time, publish, solver_version
+from run import (START_FIELDS, Solver, courant_max, last_time, options_of, publish, side_by_side,
+                 solver_version)
 
 FREE = Path(__file__).resolve().parents[1] / "free"
 DESIGN, INDEX, RECORDS = FREE / "design.csv", FREE / "index.csv", FREE / "records"
@@ -102,12 +101,7 @@ def compute(row, work, lock):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
-    parser.add_argument("--work", type=Path, default=Path("/var/tmp/aeromd-cfd"),
-                        help="folder to compute in (default: %(default)s)")
-    parser.add_argument("--jobs", type=int, default=2, help="runs at a time, one core each")
-    parser.add_argument("--only", default="", metavar="REGEX", help="only runs whose name matches")
-    arguments = parser.parse_args()
+    arguments = options_of(__doc__).parse_args()
     known = {row["name"] for row in read_table(INDEX)} if INDEX.exists() else set()
     waiting = [row for row in read_table(DESIGN)
                if row["name"] not in known and re.search(arguments.only, row["name"])]
@@ -121,11 +115,7 @@ def main():
                 row = waiting.pop(0)
             compute(row, arguments.work, lock)
 
-    threads = [threading.Thread(target=worker, daemon=True) for _ in range(arguments.jobs)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    side_by_side(arguments.jobs, worker)
     return 0
 
 
