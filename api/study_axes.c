@@ -153,9 +153,8 @@ static enum status fill_range(struct reader *r, struct study_axis *a)
         return ST_NO_MEMORY;
     }
     a->n = a->count;
-    for (int i = 0; i < a->n; i++) {
-        const double share = a->n > 1 ? (double)i / (a->n - 1) : 0.0;
-        a->value[i] = i + 1 == a->n ? a->to : a->from + (a->to - a->from) * share;
+    for (int i = 0; i < a->n; i++) { /* in this order -90 to 90 in 37 has -35, not its neighbour */
+        a->value[i] = i + 1 == a->n ? a->to : a->from + (a->to - a->from) * i / (a->n - 1);
     }
     return ST_OK;
 }

@@ -202,6 +202,22 @@ static void test_crossed_and_zipped(void **state)
     study_destroy(s);
 }
 
+/* Round steps give round values, the same as a list of them: their cells are those of equal cases.
+ */
+static void test_range_of_round_steps(void **state)
+{
+    (void)state;
+    struct study *range =
+        parse("[{\"pointer\":\"" ANGLE "\",\"from\":-90,\"to\":90,\"count\":37}]");
+    struct study_map m = {.value_name = "verdict"};
+    study_map_axes(range, &m);
+    assert_int_equal(m.axis[0].n, 37);
+    for (int i = 0; i < 37; i++) {
+        assert_true(m.axis[0].value[i] == -90.0 + 5.0 * i);
+    }
+    study_destroy(range);
+}
+
 static void test_canonical_text(void **state)
 {
     (void)state;
@@ -431,6 +447,7 @@ int main(void)
         cmocka_unit_test(test_bad_axes),
         cmocka_unit_test(test_bad_documents),
         cmocka_unit_test(test_crossed_and_zipped),
+        cmocka_unit_test(test_range_of_round_steps),
         cmocka_unit_test(test_canonical_text),
         cmocka_unit_test(test_order),
         cmocka_unit_test(test_plan),
