@@ -43,11 +43,10 @@ void study_destroy(struct study *s)
  * hash. */
 static enum status identify(struct study *s, struct json_out *identity)
 {
-    const unsigned type = 1u << s->type;
     struct json_out text = {0};
-    field_write(&text, study_fields, type | STUDY_LABEL, s);
+    field_write(&text, study_fields, STUDY_BODY | STUDY_LABEL, s);
     s->canonical = json_out_take(&text, NULL);
-    field_write(identity, study_fields, type, s);
+    field_write(identity, study_fields, STUDY_BODY, s);
     json_string(identity, s->base_hash);
     json_string(identity, AEROM_CORE_VERSION);
     if (identity->failed || s->canonical == NULL) {
@@ -106,7 +105,7 @@ static enum status read_study(const struct library *lib, const struct cJSON *tre
         cJSON_IsString(type) ? field_name_index(study_type_names, type->valuestring) : -1;
     s->library = lib;
     study_search_defaults(&s->search);
-    r.kind = index >= 0 ? 1u << index : STUDY_LABEL; /* without a type only what all need */
+    r.kind = index >= 0 ? STUDY_BODY : STUDY_LABEL; /* without a type only what all need */
     r.context = s;
     field_read(&r, study_fields, tree, s);
     enum status st = ST_INVALID;

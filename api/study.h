@@ -14,7 +14,7 @@
 struct study;
 
 enum { STUDY_CELLS_MAX = 100000 };
-enum study_type { STUDY_GRID, STUDY_BOUNDARY, STUDY_OPTIMUM, STUDY_UNCERTAINTY, STUDY_TYPE_COUNT };
+enum study_type { STUDY_GRID, STUDY_BOUNDARY, STUDY_OPTIMUM, STUDY_UNCERTAINTY };
 
 /* Whether a document says that it is a study, by its "kind". */
 bool study_is_one(const struct cJSON *tree);

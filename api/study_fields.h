@@ -45,15 +45,11 @@ struct study {
     char hash[LIMIT_HASH];
 };
 
-/* Bits of `kinds`: the types of study, and what does not count for the identity. */
+/* Bits of `kinds`. Which members a type of study has is told by `applies` alone. */
 enum study_group {
-    STUDY_IN_GRID = 1u << STUDY_GRID,
-    STUDY_IN_BOUNDARY = 1u << STUDY_BOUNDARY,
-    STUDY_IN_OPTIMUM = 1u << STUDY_OPTIMUM,
-    STUDY_IN_UNCERTAINTY = 1u << STUDY_UNCERTAINTY,
-    STUDY_IN_ALL = (1u << STUDY_TYPE_COUNT) - 1u,
-    STUDY_LABEL = 1u << 8,
-    STUDY_IN_SEARCH = 1u << 9 /* what is sought in a cell */
+    STUDY_BODY = 1u << 0,     /* what makes the identity */
+    STUDY_LABEL = 1u << 1,    /* what does not count for it */
+    STUDY_IN_SEARCH = 1u << 2 /* what is sought in a cell */
 };
 
 extern const char *const study_kind_names[]; /* "study"; ends with NULL */
