@@ -314,8 +314,8 @@ static void add(const struct api_call *call, struct api_response *res, size_t re
     if (st == ST_NO_MEMORY) {
         problem_response(res, PROBLEM_INTERNAL, status_text(st), NULL, NULL);
     } else if (problems->total > 0) {
-        shelf_refuse(res, st == ST_CORRUPT ? PROBLEM_MALFORMED_JSON : PROBLEM_INVALID_ENTRY,
-                     problems);
+        respond_refuse(res, st == ST_CORRUPT ? PROBLEM_MALFORMED_JSON : PROBLEM_INVALID_ENTRY,
+                       problems);
     } else if (strchr(e.name, '/') != NULL) {
         problem_response(res, PROBLEM_INVALID_ENTRY, "the name of a dataset has no '/'", NULL,
                          NULL);

@@ -129,15 +129,6 @@ void shelf_put_new(const struct api_call *call, struct api_response *res, enum s
     shelf->put(shelf->ctx, &p->item, put_done, p);
 }
 
-void shelf_refuse(struct api_response *res, enum problem p, const struct failure_list *problems)
-{
-    char detail[600];
-    const struct failure *first = &problems->item[0];
-    (void)snprintf(detail, sizeof detail, "%s: %s%s", first->pointer, first->detail,
-                   problems->total > 1 ? " (and more, see errors)" : "");
-    problem_response(res, p, detail, problems, NULL);
-}
-
 bool shelf_name_is_free(struct api_response *res, bool built_in, const char *name)
 {
     char detail[300];
@@ -156,7 +147,7 @@ bool shelf_name_is_free(struct api_response *res, bool built_in, const char *nam
         failure_set(failure_add(list), ST_INVALID, "/name", "bad_name",
                     "1..63 letters, digits, and any of ._+/-", NULL,
                     "the name has characters a reference cannot have");
-        shelf_refuse(res, PROBLEM_INVALID_ENTRY, list);
+        respond_refuse(res, PROBLEM_INVALID_ENTRY, list);
         free(list);
         return false;
     }
@@ -230,8 +221,8 @@ static void add(const struct api_call *call, struct api_response *res, enum shel
     if (st == ST_NO_MEMORY) {
         problem_response(res, PROBLEM_INTERNAL, status_text(st), NULL, NULL);
     } else if (st != ST_OK) {
-        shelf_refuse(res, st == ST_CORRUPT ? PROBLEM_MALFORMED_JSON : PROBLEM_INVALID_ENTRY,
-                     problems);
+        respond_refuse(res, st == ST_CORRUPT ? PROBLEM_MALFORMED_JSON : PROBLEM_INVALID_ENTRY,
+                       problems);
     } else if (shelf_name_is_free(res, library_is_built_in(call->api->library, kind, entry.name),
                                   entry.name)) {
         shelf_put_new(call, res, kind, &entry);

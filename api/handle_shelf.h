@@ -22,9 +22,8 @@ void shelf_put_new(const struct api_call *call, struct api_response *res, enum s
 void shelf_remove(const struct api_call *call, struct api_response *res, enum shelf_kind kind,
                   bool built_in);
 
-/* Answers: no such entry; problems of a document. */
+/* Answers that there is no such entry. */
 void shelf_unknown(struct api_response *res, enum shelf_kind kind, const char *name);
-void shelf_refuse(struct api_response *res, enum problem p, const struct failure_list *problems);
 /* Whether a user may give this name; otherwise the answer is given. */
 bool shelf_name_is_free(struct api_response *res, bool built_in, const char *name);
 /* version=N of the query, 0 when absent; false when the answer is given. */

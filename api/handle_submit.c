@@ -175,15 +175,6 @@ static struct submission *parse_cases(const struct api_call *call, const cJSON *
     return s;
 }
 
-static void refuse(struct api_response *res, enum problem p, const struct failure_list *problems)
-{
-    char detail[600];
-    const struct failure *first = &problems->item[0];
-    (void)snprintf(detail, sizeof detail, "%s: %s%s", first->pointer, first->detail,
-                   problems->total > 1 ? " (and more, see errors)" : "");
-    problem_response(res, p, detail, problems, NULL);
-}
-
 /* The tree of the body; NULL when the answer is given. */
 static cJSON *read_body(const struct api_call *call, struct api_response *res)
 {
@@ -196,8 +187,8 @@ static cJSON *read_body(const struct api_call *call, struct api_response *res)
     struct failure_list *problems = calloc(1, sizeof *problems);
     if (problems != NULL) {
         *failure_add(problems) = fail;
-        refuse(res, fail.status == ST_INVALID ? PROBLEM_MALFORMED_JSON : PROBLEM_INTERNAL,
-               problems);
+        respond_refuse(res, fail.status == ST_INVALID ? PROBLEM_MALFORMED_JSON : PROBLEM_INTERNAL,
+                       problems);
     } else {
         problem_response(res, PROBLEM_INTERNAL, status_text(ST_NO_MEMORY), NULL, NULL);
     }
@@ -216,7 +207,7 @@ static void submit_cases(const struct api_call *call, const cJSON *tree,
         problem_response(res, PROBLEM_TOO_LARGE, "one case may have 1 MiB; a batch 16 MiB", NULL,
                          NULL);
     } else if (problems->total > 0) {
-        refuse(res, PROBLEM_INVALID_CASE, problems);
+        respond_refuse(res, PROBLEM_INVALID_CASE, problems);
     } else {
         service->submit(service->ctx, s->n, s->item, submit_done, s);
         s = NULL; /* submit_done has it, perhaps has freed it */
@@ -243,7 +234,7 @@ static void submit_study(const struct api_call *call, const cJSON *tree,
     } else if (st == ST_NO_MEMORY || reader_ran_out_of_memory(problems)) {
         problem_response(res, PROBLEM_INTERNAL, status_text(ST_NO_MEMORY), NULL, NULL);
     } else {
-        refuse(res, PROBLEM_INVALID_CASE, problems);
+        respond_refuse(res, PROBLEM_INVALID_CASE, problems);
     }
 }
 

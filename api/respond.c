@@ -46,6 +46,15 @@ void respond_tagged(const struct api_call *call, struct api_response *res, const
     res->body_size = size;
 }
 
+void respond_refuse(struct api_response *res, enum problem p, const struct failure_list *problems)
+{
+    char detail[600];
+    const struct failure *first = &problems->item[0];
+    (void)snprintf(detail, sizeof detail, "%s: %s%s", first->pointer, first->detail,
+                   problems->total > 1 ? " (and more, see errors)" : "");
+    problem_response(res, p, detail, problems, NULL);
+}
+
 void respond_service(struct api_response *res, enum service_status st, const char *id)
 {
     char detail[128];

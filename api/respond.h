@@ -16,6 +16,9 @@ void respond_tagged(const struct api_call *call, struct api_response *res, const
 extern const char respond_immutable[];  /* for results, which never change */
 extern const char respond_revalidate[]; /* for what changes with the program */
 
+/* The problems of a document, of which there is at least one; the first is the detail. */
+void respond_refuse(struct api_response *res, enum problem p, const struct failure_list *problems);
+
 /* The problem a service status other than SERVICE_OK means; `id` names the job. */
 void respond_service(struct api_response *res, enum service_status st, const char *id);
 
