@@ -12,14 +12,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PAGE = 500, NAMES_MAX = 32 };
+enum { NAMES_MAX = 32 };
 
-/* How a map fared. */
+/* A map being filled, and how it fared. */
 struct map_read {
+    struct study_map *map;
     int seen, absent; /* cells with a summary; those without the value */
-    bool no_memory;
-    bool composite;  /* the value is an object or an array */
-    char names[160]; /* members of a summary, for the answer to a wrong value */
+    bool composite;   /* the value is an object or an array */
+    char names[160];  /* members of a summary, for the answer to a wrong value */
 };
 
 static void name_members(const cJSON *summary, struct map_read *read)
@@ -32,55 +32,32 @@ static void name_members(const cJSON *summary, struct map_read *read)
     reader_join(names, sizeof read->names, read->names);
 }
 
-static void enter(struct study_map *m, const struct service_cell *c, struct map_read *read)
+/* study_visit. */
+static void enter(void *arg, const struct service_cell *c, cJSON **summary)
 {
-    cJSON *summary = c->summary != NULL ? cJSON_Parse(c->summary) : NULL;
-    const enum study_value_kind kind = study_map_set(m, c->cell, c->state, summary);
-    read->no_memory = read->no_memory || (c->summary != NULL && summary == NULL);
-    if (summary != NULL) {
+    struct map_read *read = arg;
+    const enum study_value_kind kind = study_map_set(read->map, c->cell, c->state, *summary);
+    if (*summary != NULL) {
         read->seen++;
         read->absent += kind == STUDY_VALUE_ABSENT;
         read->composite = read->composite || kind == STUDY_VALUE_NONE;
         if (read->seen == 1) {
-            name_members(summary, read);
+            name_members(*summary, read);
         }
     }
-    cJSON_Delete(summary);
 }
 
-/* Reads all finished cells, page by page. */
-static enum service_status read_cells(const struct service *s, const char *id, struct study_map *m,
-                                      struct map_read *read)
-{
-    int from = 0, n = PAGE;
-    while (n == PAGE) {
-        struct service_cell *cell = NULL;
-        const enum service_status st = s->get_cells(s->ctx, id, from, PAGE, true, &cell, &n);
-        if (st != SERVICE_OK) {
-            return st;
-        }
-        for (int i = 0; i < n; i++) {
-            enter(m, &cell[i], read);
-        }
-        from = n > 0 ? cell[n - 1].cell + 1 : from;
-        service_cells_done(cell, n);
-        free(cell);
-    }
-    return read->no_memory ? SERVICE_ERROR : SERVICE_OK;
-}
-
-static void refuse_value(struct api_response *res, const struct study_map *m,
-                         const struct map_read *read)
+static void refuse_value(struct api_response *res, const struct map_read *read)
 {
     char detail[200];
     struct failure_list *errors = calloc(1, sizeof *errors);
     (void)snprintf(detail, sizeof detail,
                    read->composite ? "\"%.80s\" is more than one value"
                                    : "the summary of a cell has no \"%.80s\"",
-                   m->value_name);
+                   read->map->value_name);
     if (errors != NULL) {
         failure_set(failure_add(errors), ST_INVALID, "?value", "unknown_value", read->names,
-                    m->value_name, "%s", detail);
+                    read->map->value_name, "%s", detail);
     }
     problem_response(res, PROBLEM_BAD_QUERY, detail, errors, NULL);
     free(errors);
@@ -114,6 +91,15 @@ static void overlay_done(struct overlay *o)
         study_map_done(&o->map[i]);
     }
     study_destroy(o->study);
+}
+
+/* study_visit. */
+static void enter_boundary(void *arg, const struct service_cell *c, cJSON **summary)
+{
+    struct overlay *o = arg;
+    for (int i = 0; i < 2; i++) {
+        (void)study_map_set(&o->map[i], c->cell, c->state, *summary);
+    }
 }
 
 static void refuse_overlay(struct api_response *res, const char *id)
@@ -170,14 +156,14 @@ static bool overlay_read(const struct api_call *call, struct api_response *res, 
     if (o->study == NULL) {
         return false;
     }
-    enum service_status st = SERVICE_OK;
-    for (int i = 0; i < 2 && st == SERVICE_OK; i++) {
-        struct map_read read = {.seen = 0};
+    bool room = true;
+    for (int i = 0; i < 2; i++) {
         o->map[i].value_name = names[i];
         study_map_axes(o->study, &o->map[i]);
-        st = study_map_init(&o->map[i]) ? read_cells(call->api->service, job.id, &o->map[i], &read)
-                                        : SERVICE_ERROR;
+        room = room && study_map_init(&o->map[i]);
     }
+    const enum service_status st =
+        room ? study_each_cell(call->api->service, job.id, enter_boundary, o) : SERVICE_ERROR;
     if (st != SERVICE_OK) {
         respond_service(res, st, job.id);
         return false;
@@ -262,11 +248,9 @@ static enum map_format format_of(const struct api_call *call, struct api_respons
 
 void handle_map(const struct api_call *call, struct api_response *res)
 {
-    const struct service *s = call->api->service;
     const char *value = api_query_get(call->req, "value");
     struct job_record job;
     struct service_study progress;
-    struct map_read read = {.seen = 0};
     if (!study_find(call, res, &job, &progress)) {
         return;
     }
@@ -285,11 +269,12 @@ void handle_map(const struct api_call *call, struct api_response *res)
         study_destroy(study);
         return;
     }
-    const enum service_status st = read_cells(s, job.id, &m, &read);
+    struct map_read read = {.map = &m};
+    const enum service_status st = study_each_cell(call->api->service, job.id, enter, &read);
     if (st != SERVICE_OK) {
         respond_service(res, st, job.id);
     } else if (read.composite || (read.seen > 0 && read.absent == read.seen)) {
-        refuse_value(res, &m, &read);
+        refuse_value(res, &read);
     } else {
         fill_map(call, res, &job, &progress, &m, format);
     }

@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PAGE = 500 };
-
 /* Everything a document is made of; owns study and summaries. */
 struct gathered {
     struct study *study;
@@ -30,31 +28,18 @@ static void gathered_done(struct gathered *g)
     study_destroy(g->study);
 }
 
-static enum service_status read_page(const struct service *s, struct gathered *g, int *from, int *n)
+/* study_visit. */
+static void keep(void *arg, const struct service_cell *c, cJSON **summary)
 {
-    struct service_cell *cell = NULL;
-    enum service_status st = s->get_cells(s->ctx, g->job.id, *from, PAGE, true, &cell, n);
-    if (st != SERVICE_OK) {
-        return st;
-    }
-    for (int i = 0; i < *n; i++) {
-        const struct service_cell *c = &cell[i];
-        g->state[c->cell] = (unsigned char)c->state;
-        g->summary[c->cell] = c->summary != NULL ? cJSON_Parse(c->summary) : NULL;
-        if (c->summary != NULL && g->summary[c->cell] == NULL) {
-            st = SERVICE_ERROR;
-        }
-    }
-    *from = *n > 0 ? cell[*n - 1].cell + 1 : *from;
-    service_cells_done(cell, *n);
-    free(cell);
-    return st;
+    struct gathered *g = arg;
+    g->state[c->cell] = (unsigned char)c->state;
+    g->summary[c->cell] = *summary;
+    *summary = NULL;
 }
 
 /* False when the answer is given. */
 static bool gather(const struct api_call *call, struct api_response *res, struct gathered *g)
 {
-    const struct service *s = call->api->service;
     if (!study_find(call, res, &g->job, &g->progress)) {
         return false;
     }
@@ -73,11 +58,9 @@ static bool gather(const struct api_call *call, struct api_response *res, struct
     const size_t cells = (size_t)study_cells(g->study);
     g->summary = calloc(cells, sizeof(cJSON *));
     g->state = calloc(cells, sizeof *g->state);
-    enum service_status st = g->summary != NULL && g->state != NULL ? SERVICE_OK : SERVICE_ERROR;
-    int from = 0, n = PAGE;
-    while (st == SERVICE_OK && n == PAGE) {
-        st = read_page(s, g, &from, &n);
-    }
+    const enum service_status st = g->summary != NULL && g->state != NULL
+                                       ? study_each_cell(call->api->service, g->job.id, keep, g)
+                                       : SERVICE_ERROR;
     if (st != SERVICE_OK) {
         respond_service(res, st, g->job.id);
     }

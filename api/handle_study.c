@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CELL_LIMIT = 100, CELL_LIMIT_MAX = 1000 };
+enum { CELL_LIMIT = 100, CELL_LIMIT_MAX = 1000, CELL_PAGE = 500 };
 
 /* -- submit ----------------------------------------------------------------------------- */
 
@@ -131,6 +131,30 @@ struct study *study_of_job(const struct api_call *call, struct api_response *res
     free(problems);
     free(json);
     return study;
+}
+
+enum service_status study_each_cell(const struct service *s, const char *id, study_visit visit,
+                                    void *arg)
+{
+    enum service_status st = SERVICE_OK;
+    int from = 0, n = CELL_PAGE;
+    while (st == SERVICE_OK && n == CELL_PAGE) {
+        struct service_cell *cell = NULL;
+        st = s->get_cells(s->ctx, id, from, CELL_PAGE, true, &cell, &n);
+        if (st != SERVICE_OK) {
+            return st;
+        }
+        for (int i = 0; i < n; i++) {
+            cJSON *summary = cell[i].summary != NULL ? cJSON_Parse(cell[i].summary) : NULL;
+            st = cell[i].summary != NULL && summary == NULL ? SERVICE_ERROR : st;
+            visit(arg, &cell[i], &summary);
+            cJSON_Delete(summary);
+        }
+        from = n > 0 ? cell[n - 1].cell + 1 : from;
+        service_cells_done(cell, n);
+        free(cell);
+    }
+    return st;
 }
 
 void handle_study(const struct api_call *call, struct api_response *res)
