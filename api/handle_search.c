@@ -79,17 +79,6 @@ static void begin_document(struct json_out *out, const struct gathered *g)
     json_key_integer(out, "pending", p->n_cell - p->done - p->failed);
 }
 
-static void write_point(struct json_out *out, const struct gathered *g, int cell)
-{
-    struct study_map m = {.n_cell = 0};
-    study_map_axes(g->study, &m);
-    json_key_integer(out, "cell", cell);
-    json_key(out, "point");
-    json_object_begin(out);
-    study_map_point(out, &m, cell);
-    json_object_end(out);
-}
-
 static void write_item(struct json_out *out, const cJSON *item)
 {
     if (cJSON_IsNumber(item)) {
@@ -142,7 +131,7 @@ static void write_row(struct json_out *out, const struct gathered *g, int cell)
     const cJSON *summary = g->summary[cell];
     const cJSON *down = cJSON_GetObjectItemCaseSensitive(summary, "down");
     json_object_begin(out);
-    write_point(out, g, cell);
+    study_point(out, g->study, cell);
     json_key_string(out, "state", study_cell_state_name((enum study_cell_state)g->state[cell]));
     copy_members(out, summary, boundary_keys);
     if (down != NULL) {
@@ -201,7 +190,7 @@ static void write_start(struct json_out *out, const struct gathered *g, int cell
     static const char *const keys[] = {"outcome", "objective", "evaluations", "failed_evaluations",
                                        "runs",    NULL};
     json_object_begin(out);
-    write_point(out, g, cell);
+    study_point(out, g->study, cell);
     json_key_string(out, "state", study_cell_state_name((enum study_cell_state)g->state[cell]));
     copy_members(out, g->summary[cell], keys);
     const cJSON *summary = g->summary[cell];

@@ -182,21 +182,10 @@ void handle_study(const struct api_call *call, struct api_response *res)
 
 /* -- cells ------------------------------------------------------------------------------ */
 
-static void write_point(struct json_out *out, const struct study *study, int cell)
-{
-    struct study_map m = {.n_cell = 0};
-    study_map_axes(study, &m);
-    json_key(out, "point");
-    json_object_begin(out);
-    study_map_point(out, &m, cell);
-    json_object_end(out);
-}
-
 static void write_cell(struct json_out *out, const struct study *study,
                        const struct service_cell *c)
 {
-    json_key_integer(out, "cell", c->cell);
-    write_point(out, study, c->cell);
+    study_point(out, study, c->cell);
     json_key_string(out, "state", study_cell_state_name(c->state));
     json_key(out, "reused");
     json_boolean(out, c->reused);

@@ -233,3 +233,14 @@ void study_map_axes(const struct study *s, struct study_map *out)
                                                 .label = (const char *const *)a->label};
     }
 }
+
+void study_point(struct json_out *out, const struct study *s, int cell)
+{
+    struct study_map m = {.n_cell = 0};
+    study_map_axes(s, &m);
+    json_key_integer(out, "cell", cell);
+    json_key(out, "point");
+    json_object_begin(out);
+    study_map_point(out, &m, cell);
+    json_object_end(out);
+}

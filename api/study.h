@@ -59,6 +59,9 @@ const char *study_field_pointer(const struct study *s);
 /* Axes and shape of a map, without values. They borrow from the study. */
 void study_map_axes(const struct study *s, struct study_map *out);
 
+/* Members "cell" and "point" of an object: a cell and the values of the axes there. */
+void study_point(struct json_out *out, const struct study *s, int cell);
+
 /* The case of a cell. A cell that is not admissible: ST_INVALID with its problems. */
 MUST_CHECK enum status study_case(struct study *s, int cell, struct api_case **out,
                                   struct failure_list *problems);

@@ -171,17 +171,13 @@ enum study_value_kind study_map_set(struct study_map *m, int cell, enum study_ce
 
 void study_map_point(struct json_out *out, const struct study_map *m, int cell)
 {
-    int at[STUDY_AXES_MAX];
-    for (int d = m->n_dimension - 1; d >= 0; d--) {
-        at[d] = cell % m->shape[d];
-        cell /= m->shape[d];
-    }
     for (int i = 0; i < m->n_axis; i++) {
         const struct study_axis_view *a = &m->axis[i];
+        const int k = study_map_index(m, cell, a->dimension);
         if (a->value != NULL) {
-            json_key_number(out, a->pointer, a->value[at[a->dimension]]);
+            json_key_number(out, a->pointer, a->value[k]);
         } else {
-            json_key_string(out, a->pointer, a->label[at[a->dimension]]);
+            json_key_string(out, a->pointer, a->label[k]);
         }
     }
 }
