@@ -1,27 +1,11 @@
 /* A record of a dataset as a drawing: motion, c_l and c_m over time, one under the other. */
 #include "api/dataset.h"
+#include "api/svg.h"
 #include "core/num.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 
 enum { WIDTH = 760, PANEL = 170, LEFT = 70, RIGHT = 20, TOP = 34, GAP = 30, POINTS_MAX = 2000 };
-
-static void put(struct json_out *out, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-
-static void put(struct json_out *out, const char *format, ...)
-{
-    char text[512];
-    va_list list;
-    va_start(list, format);
-    const int n = vsnprintf(text, sizeof text, format, list);
-    va_end(list);
-    if (n > 0 && (size_t)n < sizeof text) {
-        json_out_bytes(out, text, (size_t)n);
-    }
-}
 
 /* One panel: a row of the record in the unit of the document. */
 struct panel {
@@ -67,24 +51,26 @@ static void scale(struct panel *p)
 static void draw(struct json_out *out, const struct panel *p, const char *title)
 {
     const int every = 1 + p->r->n / POINTS_MAX;
-    put(out,
+    svg_put(
+        out,
         "<rect x=\"%d\" y=\"%.1f\" width=\"%d\" height=\"%d\" fill=\"none\" stroke=\"#999\"/>\n",
         LEFT, p->top, WIDTH - LEFT - RIGHT, PANEL);
-    put(out, "<text x=\"%d\" y=\"%.1f\" font-weight=\"bold\">%s</text>\n", LEFT, p->top - 6.0,
-        title);
+    svg_put(out, "<text x=\"%d\" y=\"%.1f\" font-weight=\"bold\">%s</text>\n", LEFT, p->top - 6.0,
+            title);
     for (int i = 0; i <= 2; i++) {
         const double v = p->low + 0.5 * i * (p->high - p->low);
-        put(out, "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%.3g</text>\n", LEFT - 6,
-            y_of(p, v) + 4.0, fabs(v) < 1e-12 ? 0.0 : v);
+        svg_put(out, "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%.3g</text>\n", LEFT - 6,
+                y_of(p, v) + 4.0, fabs(v) < 1e-12 ? 0.0 : v);
     }
     if (p->low < 0.0 && p->high > 0.0) {
-        put(out, "<path d=\"M%d %.1fH%d\" stroke=\"#ddd\"/>\n", LEFT, y_of(p, 0.0), WIDTH - RIGHT);
+        svg_put(out, "<path d=\"M%d %.1fH%d\" stroke=\"#ddd\"/>\n", LEFT, y_of(p, 0.0),
+                WIDTH - RIGHT);
     }
-    put(out, "<path fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"1.2\" d=\"");
+    svg_put(out, "<path fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"1.2\" d=\"");
     for (int i = 0; i < p->r->n; i += every) {
-        put(out, "%c%.1f %.1f", i == 0 ? 'M' : 'L', x_of(p, i), y_of(p, value_at(p, i)));
+        svg_put(out, "%c%.1f %.1f", i == 0 ? 'M' : 'L', x_of(p, i), y_of(p, value_at(p, i)));
     }
-    put(out, "\"/>\n");
+    svg_put(out, "\"/>\n");
 }
 
 void dataset_write_svg(struct json_out *out, const struct flow_record *r)
@@ -99,13 +85,13 @@ void dataset_write_svg(struct json_out *out, const struct flow_record *r)
                 {FLOW_CM, false, "moment coefficient about mid-chord, nose-up"}};
     enum { N = sizeof rows / sizeof rows[0] };
     const int height = TOP + N * (PANEL + GAP) + 30;
-    put(out,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
-        "viewBox=\"0 0 %d %d\" font-family=\"sans-serif\" font-size=\"12\">\n",
-        WIDTH, height, WIDTH, height);
-    put(out, "<title>%s</title>\n<rect width=\"100%%\" height=\"100%%\" fill=\"#fff\"/>\n",
-        r->name);
-    put(out, "<text x=\"%d\" y=\"14\" text-anchor=\"end\">%s</text>\n", WIDTH - RIGHT, r->name);
+    svg_put(out,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
+            "viewBox=\"0 0 %d %d\" font-family=\"sans-serif\" font-size=\"12\">\n",
+            WIDTH, height, WIDTH, height);
+    svg_put(out, "<title>%s</title>\n<rect width=\"100%%\" height=\"100%%\" fill=\"#fff\"/>\n",
+            r->name);
+    svg_put(out, "<text x=\"%d\" y=\"14\" text-anchor=\"end\">%s</text>\n", WIDTH - RIGHT, r->name);
     struct panel p = {.r = r};
     for (int i = 0; i < N; i++) {
         p.row = rows[i].row;
@@ -114,9 +100,9 @@ void dataset_write_svg(struct json_out *out, const struct flow_record *r)
         scale(&p);
         draw(out, &p, rows[i].title);
     }
-    put(out, "<text x=\"%d\" y=\"%d\">%.4g</text>\n", LEFT, height - 26, time_at(&p, 0));
-    put(out, "<text x=\"%d\" y=\"%d\" text-anchor=\"end\">%.4g</text>\n", WIDTH - RIGHT,
-        height - 26, time_at(&p, r->n - 1));
-    put(out, "<text x=\"%d\" y=\"%d\" text-anchor=\"middle\">time [c/V]</text>\n</svg>\n",
-        (WIDTH + LEFT - RIGHT) / 2, height - 26);
+    svg_put(out, "<text x=\"%d\" y=\"%d\">%.4g</text>\n", LEFT, height - 26, time_at(&p, 0));
+    svg_put(out, "<text x=\"%d\" y=\"%d\" text-anchor=\"end\">%.4g</text>\n", WIDTH - RIGHT,
+            height - 26, time_at(&p, r->n - 1));
+    svg_put(out, "<text x=\"%d\" y=\"%d\" text-anchor=\"middle\">time [c/V]</text>\n</svg>\n",
+            (WIDTH + LEFT - RIGHT) / 2, height - 26);
 }

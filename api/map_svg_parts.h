@@ -6,6 +6,7 @@
 #define AEROM_API_MAP_SVG_PARTS_H
 
 #include "api/map_svg.h"
+#include "api/svg.h"
 
 /* The sheet and the field of the drawing on it, in user units. */
 enum {
@@ -19,11 +20,6 @@ enum {
     SVG_BAR_RIGHT = 712,
     SVG_COLOURS = 64
 };
-
-/* Formatted text, cut at 1 KiB. */
-void svg_put(struct json_out *out, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* With the five characters of XML replaced, and those it does not allow left out. */
-void svg_text(struct json_out *out, const char *text);
 
 /* One axis on the sheet: its values in rising order, from pixel `from` to `to`. */
 struct svg_scale {
