@@ -29,16 +29,19 @@ static void set_motion(const struct options *o, struct loop_def *d)
     d->steps = options_whole(o->steps, d->steps);
 }
 
-/* `start` is the time of the first sample. */
-static bool print(const struct loop_result *r, double start)
+/* `start` is the time of the first sample. A section that only pitches has no column of plunge. */
+static bool print(const struct loop_result *r, bool plunges, double start)
 {
-    (void)printf("t,alpha_deg,w,cl,cd,cm\n");
+    (void)printf("t,alpha_deg,cl,cd,cm%s\n", plunges ? ",w" : "");
     for (int i = 0; i < r->n; i++) {
         const double *v = r->value + i;
         const ptrdiff_t n = r->n;
-        (void)printf("%.6g,%.6f,%.6f,%.6f,%.6f,%.6f\n", start + v[n * LOOP_TIME],
-                     num_deg(v[n * LOOP_ALPHA]), v[n * LOOP_PLUNGE], v[n * LOOP_CL], v[n * LOOP_CD],
-                     v[n * LOOP_CM]);
+        (void)printf("%.6g,%.6f,%.6f,%.6f,%.6f", start + v[n * LOOP_TIME],
+                     num_deg(v[n * LOOP_ALPHA]), v[n * LOOP_CL], v[n * LOOP_CD], v[n * LOOP_CM]);
+        if (plunges) {
+            (void)printf(",%.6f", v[n * LOOP_PLUNGE]);
+        }
+        (void)printf("\n");
     }
     (void)printf("# work %.8f pitch %.8f plunge %.8f outside_polar %ld outside_hull %ld\n",
                  r->work_pitch + r->work_plunge, r->work_pitch, r->work_plunge, r->outside_polar,
@@ -84,7 +87,7 @@ static bool compute(const struct loop_def *d, double start, struct failure_list 
         (void)fprintf(stderr, "aerom: loop: %s\n", status_text(st));
         return false;
     }
-    const bool done = print(&r, start);
+    const bool done = print(&r, d->motion != NULL || d->plunge != 0.0, start);
     loop_done(&r);
     return done;
 }

@@ -19,7 +19,7 @@ static const struct command commands[] = {
      "compute a case here and print its summary, or a study and print the map of a value (default\n"
      "      verdict); CASE '-' reads standard input"},
     {"loop", loop_main,
-     "--frequency F | --motion FILE.csv [--polar NAME|FILE.json] [--dynamic TYPE]\n"
+     "--frequency F | --motion FILE.csv [--polar NAME|FILE.json] [--dynamic TYPE|network:NAME]\n"
      "      [--network NAME|FILE.json [--force]] [--mean-deg A] [--amplitude-deg A] [--plunge W] "
      "[--phase-deg A]\n"
      "      [--cycles N] [--steps N]",

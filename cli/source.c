@@ -89,10 +89,15 @@ bool source_dynamic(const char *dynamic, const char *network, bool force,
                     const struct polar_def *polar, struct sources *s, struct failure_list *problems,
                     enum dynamic_type *type, const struct network_def **out)
 {
+    static const char named[] = "network:"; /* short for both options */
+    if (dynamic != NULL && network == NULL && strncmp(dynamic, named, sizeof named - 1) == 0) {
+        network = dynamic + sizeof named - 1;
+        dynamic = "network";
+    }
     if (dynamic != NULL && !dynamic_type_parse(dynamic, type)) {
         (void)fprintf(stderr,
-                      "aerom: --dynamic: '%s' is not one of none, network, attached, "
-                      "dynamic_stall\n",
+                      "aerom: --dynamic: '%s' is not one of none, network, network:NAME, "
+                      "attached, dynamic_stall\n",
                       dynamic);
         return false;
     }

@@ -26,8 +26,8 @@ bool source_polar(const char *name, struct sources *s, struct failure_list *prob
 bool source_network(const char *name, struct sources *s, struct failure_list *problems,
                     const struct network_def **out);
 /* The dynamic model of --dynamic and --network, either of them NULL when not given, on a polar;
- * with `force` also a network that was trained on another one. On failure lines have gone to
- * stderr. */
+ * "network:NAME" says both at once; with `force` also a network that was trained on another one. On
+ * failure lines have gone to stderr. */
 bool source_dynamic(const char *dynamic, const char *network, bool force,
                     const struct polar_def *polar, struct sources *s, struct failure_list *problems,
                     enum dynamic_type *type, const struct network_def **out);

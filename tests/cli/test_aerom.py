@@ -249,6 +249,21 @@ class Loop(unittest.TestCase):
         # Theodorsen, k = pi f: work = pi amplitude^2 Im(c_m) = -0.3758 pi amplitude^2.
         self.assertAlmostEqual(work, -0.3758 * math.pi * math.radians(2) ** 2, delta=0.01 * abs(work))
 
+    def test_columns_and_the_short_name_of_a_network(self):
+        motion = ("--polar", "plate-4pct-channel", "--mean-deg", 2.5, "--amplitude-deg", 5, "--frequency", 0.125,
+                  "--cycles", 3)
+        short = aerom("loop", "--dynamic", "network:plate-4pct", *motion)
+        self.assertEqual(short.returncode, 0, short.stderr)
+        self.assertEqual(short.stdout.splitlines()[0], "t,alpha_deg,cl,cd,cm")
+        self.assertEqual(short.stdout, aerom("loop", "--dynamic", "network", "--network", "plate-4pct", *motion).stdout)
+        plunging = aerom("loop", "--dynamic", "network:plate-4pct", *motion, "--plunge", 0.1)
+        self.assertEqual(plunging.stdout.splitlines()[0], "t,alpha_deg,cl,cd,cm,w")
+        for wrong in (("network:nobody",), ("network:",), ("network:plate-4pct", "--network", "plate-4pct")):
+            with self.subTest(wrong=wrong):
+                refused = aerom("loop", "--dynamic", *wrong, *motion)
+                self.assertEqual((refused.returncode, refused.stdout), (1, ""))
+                self.assertRegex(refused.stderr, "^aerom: --(dynamic|network): ")
+
     def test_text_of_a_case(self):
         text = aerom("run", CASES / "plate-loop.json", "--text").stdout
         self.assertRegex(text, r"work fed into the motion.*\n  pitch +0\.01\d+")
