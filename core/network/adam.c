@@ -1,6 +1,5 @@
 #include "core/network/adam.h"
 
-#include "core/network/dataset.h"
 #include "core/num.h"
 
 #include <stdlib.h>
@@ -41,15 +40,5 @@ void adam_step(struct adam *s, const double *g, double *p)
         const double mean = s->mean[i] / (1.0 - s->power_mean);
         const double square = s->square[i] / (1.0 - s->power_square);
         p[i] -= s->rate * mean / (sqrt(square) + guard);
-    }
-}
-
-void adam_shuffle(int n, uint64_t *seed, int *order)
-{
-    for (int i = n - 1; i > 0; i--) {
-        const int k = (int)(dataset_uniform(seed) * (i + 1));
-        const int keep = order[i];
-        order[i] = order[k];
-        order[k] = keep;
     }
 }

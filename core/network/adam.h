@@ -6,8 +6,6 @@
 
 #include "core/status.h"
 
-#include <stdint.h>
-
 struct adam {
     int count;
     double rate, weight; /* step length; of the square of each parameter in the objective */
@@ -24,8 +22,5 @@ void adam_done(struct adam *s);
 /* Moves p (count) against the gradient g (count) of the error, to which that of the decay is added.
  */
 void adam_step(struct adam *s, const double *g, double *p);
-
-/* Puts `order` (n) into another order; the same seed gives the same one. */
-void adam_shuffle(int n, uint64_t *seed, int *order);
 
 #endif

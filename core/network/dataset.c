@@ -2,6 +2,7 @@
 
 #include "core/aero/moving_section.h"
 #include "core/num.h"
+#include "core/random.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -11,14 +12,6 @@ void dataset_def_defaults(struct dataset_def *def)
 {
     *def = (struct dataset_def){
         .window = 12.5, .samples_max = 500, .anchors = 500, .held_share = 0.1, .seed = 1};
-}
-
-double dataset_uniform(uint64_t *state)
-{
-    uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
 /* Every how many samples one is taken. */
@@ -61,7 +54,7 @@ static enum status draw(const struct dataset_def *def, int n_record,
     uint64_t seed = def->seed;
     d->n_held = (int)num_clamp(nearbyint(def->held_share * moving), 1.0, moving - 1.0);
     for (int k = 0; k < d->n_held; k++) {
-        const int pick = k + (int)(dataset_uniform(&seed) * (moving - k));
+        const int pick = k + (int)(random_uniform(&seed) * (moving - k));
         const int keep = index[k];
         index[k] = index[pick];
         index[pick] = keep;

@@ -110,7 +110,4 @@ void dataset_done(struct dataset *d);
 void dataset_scaling(const struct sample_set *s, struct network_def *net,
                      struct failure_list *problems);
 
-/* Next of a sequence of uniform numbers in [0, 1), the same on every machine (splitmix64). */
-double dataset_uniform(uint64_t *state);
-
 #endif

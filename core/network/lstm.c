@@ -1,8 +1,8 @@
 #include "core/network/lstm.h"
 
 #include "core/aero/tanh_lanes.h"
-#include "core/network/dataset.h"
 #include "core/num.h"
+#include "core/random.h"
 
 #include <assert.h>
 #include <string.h>
@@ -54,7 +54,7 @@ void lstm_start(const struct lstm *s, uint64_t seed, double *p)
     const double in = sqrt(3.0 / (s->n_in + s->n_hidden)), out = sqrt(3.0 / s->n_hidden);
     for (int i = 0; i < at.count; i++) {
         const double size = i < at.b1 ? in : i < at.w2 ? 0.0 : i < at.b2 ? out : 0.0;
-        p[i] = size > 0.0 ? size * (2.0 * dataset_uniform(&seed) - 1.0) : 0.0;
+        p[i] = size > 0.0 ? size * (2.0 * random_uniform(&seed) - 1.0) : 0.0;
     }
     for (int k = 0; k < s->n_hidden; k++) {
         p[at.b1 + FORGET * s->n_hidden + k] = 1.0;

@@ -1,8 +1,8 @@
 #include "core/network/perceptron.h"
 
 #include "core/aero/tanh_lanes.h"
-#include "core/network/dataset.h"
 #include "core/num.h"
+#include "core/random.h"
 
 #include <string.h>
 
@@ -25,7 +25,7 @@ int perceptron_count(const struct perceptron *s)
 
 static double within(uint64_t *seed, double size)
 {
-    return size * (2.0 * dataset_uniform(seed) - 1.0);
+    return size * (2.0 * random_uniform(seed) - 1.0);
 }
 
 void perceptron_start(const struct perceptron *s, uint64_t seed, double *p)

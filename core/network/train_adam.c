@@ -2,6 +2,7 @@
 
 #include "core/network/adam.h"
 #include "core/num.h"
+#include "core/random.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -32,7 +33,7 @@ static enum status run(const struct train_problem *problem, const struct train_d
     bool ended = false;
     for (int epoch = 0; epoch <= def->epochs && !ended && st == ST_OK; epoch++) {
         if (epoch > 0) {
-            adam_shuffle(n, &seed, order);
+            random_shuffle(n, &seed, order);
         }
         for (int first = 0; first < n && epoch > 0; first += def->batch) {
             gradient(problem, n - first < def->batch ? n - first : def->batch, order + first, p, g);

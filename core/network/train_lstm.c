@@ -3,6 +3,7 @@
 #include "core/network/adam.h"
 #include "core/network/lstm_records.h"
 #include "core/num.h"
+#include "core/random.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -153,7 +154,7 @@ static enum status optimise(struct work *w, const struct lstm_set set[2],
     bool ended = false;
     for (int epoch = 0; epoch <= def->epochs && !ended && st == ST_OK; epoch++) {
         if (epoch > 0) {
-            adam_shuffle(set[0].n, &seed, w->order);
+            random_shuffle(set[0].n, &seed, w->order);
             w->adam.rate = def->rate * pow(rate_last, (double)epoch / def->epochs);
         }
         for (int i = 0; i < set[0].n && epoch > 0; i++) {

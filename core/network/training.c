@@ -1,5 +1,7 @@
 #include "core/network/training.h"
 
+#include "core/random.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -61,7 +63,7 @@ static void deal(const struct training_def *def, int n_record, const struct flow
         fold[i] = flow_record_moves(&record[i]) ? moving++ % def->folds : -1;
     }
     for (int i = n_record - 1; i > 0; i--) {
-        const int k = (int)(dataset_uniform(&seed) * (i + 1));
+        const int k = (int)(random_uniform(&seed) * (i + 1));
         if (fold[i] >= 0 && fold[k] >= 0) {
             const int keep = fold[i];
             fold[i] = fold[k];

@@ -1,7 +1,7 @@
 #include "core/study/sampling.h"
 
-#include "core/network/dataset.h"
 #include "core/num.h"
+#include "core/random.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -132,7 +132,7 @@ static void fill_sobol(int dimensions, int n, uint64_t seed, double *u)
 {
     for (int j = 0; j < dimensions; j++) {
         uint32_t v[BITS];
-        const uint32_t shift = (uint32_t)(dataset_uniform(&seed) * 0x1p32);
+        const uint32_t shift = (uint32_t)(random_uniform(&seed) * 0x1p32);
         direction_numbers(j, v);
         for (int i = 0; i < n; i++) {
             /* The middle of the cell of the last digit: never 0, never 1. */
@@ -149,12 +149,12 @@ static enum status fill_latin(int dimensions, int n, uint64_t seed, double *u)
     }
     for (int j = 0; j < dimensions; j++) {
         for (int i = 0; i < n; i++) {
-            const int k = (int)(dataset_uniform(&seed) * (i + 1));
+            const int k = (int)(random_uniform(&seed) * (i + 1));
             cell[i] = cell[k];
             cell[k] = i;
         }
         for (int i = 0; i < n; i++) {
-            const double inside = num_clamp(dataset_uniform(&seed), 0x1p-32, 1.0 - 0x1p-32);
+            const double inside = num_clamp(random_uniform(&seed), 0x1p-32, 1.0 - 0x1p-32);
             u[num_at(j, i, dimensions)] = (cell[i] + inside) / n;
         }
     }

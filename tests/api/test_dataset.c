@@ -3,6 +3,7 @@
 #include "api/hdf5_dataset.h"
 #include "api/json.h"
 #include "core/num.h"
+#include "core/random.h"
 
 #include <hdf5.h>
 #include <setjmp.h>
@@ -286,15 +287,14 @@ static void damaged_texts(void **state)
     for (int i = 0; i < 600; i++) {
         char *text = i % 2 == 0 ? csv_of() : json_of();
         size_t size = strlen(text);
-        const int changes = 1 + (int)(4.0 * dataset_uniform(&state_of));
+        const int changes = 1 + (int)(4.0 * random_uniform(&state_of));
         for (int k = 0; k < changes; k++) {
-            const size_t at = (size_t)(dataset_uniform(&state_of) * (double)size);
-            const size_t what =
-                (size_t)(dataset_uniform(&state_of) * (double)(sizeof alphabet - 1));
+            const size_t at = (size_t)(random_uniform(&state_of) * (double)size);
+            const size_t what = (size_t)(random_uniform(&state_of) * (double)(sizeof alphabet - 1));
             text[at] = alphabet[what];
         }
         if (i % 7 == 0) {
-            size = (size_t)(dataset_uniform(&state_of) * (double)size);
+            size = (size_t)(random_uniform(&state_of) * (double)size);
         }
         struct dataset_entry e = {.n_record = 0};
         (void)reset(NULL);
