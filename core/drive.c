@@ -17,20 +17,6 @@ void drive_complete(struct drive_def *d)
     }
 }
 
-static void check_table(const struct drive_def *d, const char *pointer, const char *value_key,
-                        struct failure_list *out)
-{
-    for (int i = 0; i < d->n; i++) {
-        char at[160], value[160];
-        const double low = i > 0 ? d->time[i - 1] : 0.0;
-        (void)snprintf(at, sizeof at, "%.110s/time_s/%d", pointer, i);
-        (void)snprintf(value, sizeof value, "%.110s/%s/%d", pointer, value_key, i);
-        const struct range rule[] = {{at, d->time[i], low, HUGE_VAL, i > 0, false},
-                                     {value, d->value[i], -HUGE_VAL, HUGE_VAL, true, true}};
-        RANGE_CHECK(rule, out);
-    }
-}
-
 void drive_check(const struct drive_def *d, const char *pointer, const char *value_key,
                  struct failure_list *out)
 {
@@ -38,7 +24,7 @@ void drive_check(const struct drive_def *d, const char *pointer, const char *val
         return;
     }
     if (d->type == DRIVE_TABLE) {
-        check_table(d, pointer, value_key, out);
+        range_check_table(d->n, d->time, d->value, pointer, value_key, out);
         return;
     }
     char frequency[160], start[160], ramp[160];

@@ -12,26 +12,13 @@ static const double share[KUESSNER_LAGS] = {0.034968, 0.248865, 0.423745,
 static const double rate[KUESSNER_LAGS] = {0.009920, 0.090937,  0.362423,
                                            2.057553, 20.205769, 506.374575};
 
-static void check_table(const struct gust_def *g, const char *pointer, struct failure_list *out)
-{
-    for (int i = 0; i < g->n; i++) {
-        char at[160], velocity[160];
-        const double low = i > 0 ? g->time[i - 1] : 0.0;
-        (void)snprintf(at, sizeof at, "%.110s/time_s/%d", pointer, i);
-        (void)snprintf(velocity, sizeof velocity, "%.110s/velocity_m_s/%d", pointer, i);
-        const struct range rule[] = {{at, g->time[i], low, HUGE_VAL, i > 0, false},
-                                     {velocity, g->velocity[i], -HUGE_VAL, HUGE_VAL, true, true}};
-        RANGE_CHECK(rule, out);
-    }
-}
-
 void gust_check(const struct gust_def *g, const char *pointer, struct failure_list *out)
 {
     if (!g->given) {
         return;
     }
     if (g->type == GUST_TABLE) {
-        check_table(g, pointer, out);
+        range_check_table(g->n, g->time, g->velocity, pointer, "velocity_m_s", out);
         return;
     }
     char start[160], length[160], duration[160];

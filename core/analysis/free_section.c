@@ -3,9 +3,9 @@
 #include "core/coupling/apparent_mass.h"
 #include "core/la.h"
 #include "core/num.h"
+#include "core/range.h"
 
 #include <assert.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,14 +21,6 @@ void free_section_def_defaults(struct free_section_def *def)
 {
     *def = (struct free_section_def){
         .dynamic = DYNAMIC_NONE, .mass = 50.0, .inertia = 4.0, .duration = 200.0, .step = 0.02};
-}
-
-static void refuse(struct failure_list *out, const char *pointer, const char *expected, double got)
-{
-    char text[32];
-    (void)snprintf(text, sizeof text, "%g", got);
-    failure_set(failure_add(out), ST_INVALID, pointer, "out_of_range", expected, text,
-                "%s is out of range", pointer);
 }
 
 #define FIELD(name_, member, degrees_, low_, high_, open_, expected_)                              \
@@ -64,14 +56,14 @@ void free_section_def_check(const struct free_section_def *def, struct failure_l
         memcpy(&v, base + f->offset, sizeof v);
         v = f->degrees ? num_deg(v) : v;
         if (!(v <= f->high && (f->open ? v > f->low : v >= f->low))) {
-            refuse(out, f->name, f->expected, v);
+            range_refuse(out, f->name, f->expected, v);
         }
     }
     if (!(def->inertia > def->mass * num_sq(def->imbalance))) {
-        refuse(out, "inertia", "more than mass times imbalance squared", def->inertia);
+        range_refuse(out, "inertia", "more than mass times imbalance squared", def->inertia);
     }
     if (!(def->duration >= def->step && def->duration <= def->step * STEPS_MAX)) {
-        refuse(out, "duration", "1..1e6 steps", def->duration);
+        range_refuse(out, "duration", "1..1e6 steps", def->duration);
     }
 }
 

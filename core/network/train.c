@@ -3,9 +3,9 @@
 #include "core/network/train_adam.h"
 #include "core/network/train_lm.h"
 #include "core/num.h"
+#include "core/range.h"
 
 #include <assert.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,24 +41,16 @@ void train_def_defaults(enum train_optimiser optimiser, struct train_def *def)
                               .seed = 1};
 }
 
-static void refuse(struct failure_list *out, const char *pointer, const char *expected, double got)
-{
-    char text[32];
-    (void)snprintf(text, sizeof text, "%g", got);
-    failure_set(failure_add(out), ST_INVALID, pointer, "out_of_range", expected, text,
-                "%s is out of range", pointer);
-}
-
 void train_def_check(const struct train_def *def, int n_hidden, struct failure_list *out)
 {
     if (n_hidden < 1 || n_hidden > LIMIT_NET_HIDDEN) {
-        refuse(out, "--hidden", "1..512", n_hidden);
+        range_refuse(out, "--hidden", "1..512", n_hidden);
     }
     if (def->epochs < 1 || def->epochs > TRAIN_EPOCHS_MAX) {
-        refuse(out, "--epochs", "1..100000", def->epochs);
+        range_refuse(out, "--epochs", "1..100000", def->epochs);
     }
     if (!(def->decay >= 0.0 && def->decay <= 1.0)) {
-        refuse(out, "--decay", "0..1", def->decay);
+        range_refuse(out, "--decay", "0..1", def->decay);
     }
 }
 
