@@ -2,20 +2,11 @@
 
 #include "core/aero/attached.h"
 #include "core/aero/dynamic_stall.h"
-
 #include "core/num.h"
 #include "core/range.h"
 
 #include <stdio.h>
 #include <string.h>
-
-enum network_base aero_def_base(const struct aero_def *a)
-{
-    static const enum network_base base[] = {[DYNAMIC_NONE] = NETWORK_ON_POLAR,
-                                             [DYNAMIC_ATTACHED] = NETWORK_ON_ATTACHED,
-                                             [DYNAMIC_STALL] = NETWORK_ON_STALL};
-    return a->dynamic == DYNAMIC_NETWORK ? a->network->frame.base : base[a->dynamic];
-}
 
 void case_def_defaults(struct case_def *def)
 {

@@ -180,9 +180,6 @@ static inline bool case_def_has_polar(const struct case_def *def)
 /* The whole definition of a case of kind loop. */
 struct loop_def case_def_loop(const struct case_def *def);
 
-/* The model under the network of a case, or the one it has without. */
-enum network_base aero_def_base(const struct aero_def *a);
-
 /* Fills every default. */
 void case_def_defaults(struct case_def *def);
 

@@ -68,6 +68,14 @@ bool network_def_uses(const struct network_def *def, enum network_input input)
     return false;
 }
 
+struct network_frame network_frame_under(enum dynamic_type dynamic, const struct network_def *net)
+{
+    static const enum network_base base[] = {[DYNAMIC_NONE] = NETWORK_ON_POLAR,
+                                             [DYNAMIC_ATTACHED] = NETWORK_ON_ATTACHED,
+                                             [DYNAMIC_STALL] = NETWORK_ON_STALL};
+    return dynamic == DYNAMIC_NETWORK ? net->frame : (struct network_frame){.base = base[dynamic]};
+}
+
 bool network_def_is_of_other_polar(const struct network_def *def, const char *polar_hash)
 {
     return def->polar_hash[0] != '\0' && polar_hash[0] != '\0' &&

@@ -7,6 +7,7 @@
 #ifndef AEROM_CORE_AERO_NETWORK_H
 #define AEROM_CORE_AERO_NETWORK_H
 
+#include "core/aero/dynamic.h"
 #include "core/limits.h"
 #include "core/status.h"
 
@@ -84,6 +85,9 @@ struct network_def {
 const char *network_input_name(enum network_input input);
 const char *network_base_name(enum network_base base);
 bool network_def_uses(const struct network_def *def, enum network_input input);
+/* Frame of a dynamic part: that of its network, or its own model, without lags, where it is none
+ * (`net` is not looked at then). */
+struct network_frame network_frame_under(enum dynamic_type dynamic, const struct network_def *net);
 /* Was it trained on another polar than the one with this hash? False where one is not known. */
 bool network_def_is_of_other_polar(const struct network_def *def, const char *polar_hash);
 

@@ -71,17 +71,12 @@ static void station_done(struct station *s)
 /* The caller clears up what a failure leaves half built. */
 static enum status station_init(const struct loop_def *d, struct station *s)
 {
-    static const struct network_frame frame[] = {[DYNAMIC_NONE] = {.base = NETWORK_ON_POLAR},
-                                                 [DYNAMIC_ATTACHED] = {.base = NETWORK_ON_ATTACHED},
-                                                 [DYNAMIC_STALL] = {.base = NETWORK_ON_STALL}};
+    const struct network_frame frame = network_frame_under(d->dynamic, d->network);
     enum status st = polar_create(d->polar, &s->polar);
     if (st == ST_OK && d->dynamic == DYNAMIC_NETWORK) {
         st = network_create(d->network, &s->network);
     }
-    return st != ST_OK
-               ? st
-               : moving_section_init(s->network != NULL ? &d->network->frame : &frame[d->dynamic],
-                                     s->polar, time_step(d), &s->section);
+    return st == ST_OK ? moving_section_init(&frame, s->polar, time_step(d), &s->section) : st;
 }
 
 /* The sliding mean over a cycle that the network sees is the mean of the motion. */

@@ -276,19 +276,19 @@ static enum status build_dynamic(struct model *m)
 {
     const struct aero_def *a = &m->def.aero;
     const double speed = m->def.flow.speed, dt = m->def.solver.time_step;
-    const enum network_base base = aero_def_base(a);
+    const struct network_frame frame = network_frame_under(a->dynamic, a->network);
     enum status st = ST_OK;
     if (a->dynamic == DYNAMIC_NETWORK) {
         st = network_create(a->network, &m->network);
-        st = st == ST_OK ? network_lags_init(m->n_station, m->chord, speed, dt, &a->network->frame,
-                                             &m->network_lags)
-                         : st;
+        st = st == ST_OK
+                 ? network_lags_init(m->n_station, m->chord, speed, dt, &frame, &m->network_lags)
+                 : st;
     }
-    if (st == ST_OK && base == NETWORK_ON_STALL) {
+    if (st == ST_OK && frame.base == NETWORK_ON_STALL) {
         st = dynamic_stall_init(m->n_station, m->chord, speed, dt, m->polar, &a->polar->stall,
                                 &m->stall);
     }
-    if (st == ST_OK && base != NETWORK_ON_POLAR) {
+    if (st == ST_OK && frame.base != NETWORK_ON_POLAR) {
         st = attached_init(m->n_station, m->chord, speed, dt, &m->attached);
         st = st == ST_OK ? apparent_mass_apply(m) : st;
     }
