@@ -165,20 +165,29 @@ enum status free_section_model(const struct free_section_def *def, struct model 
     return ST_OK;
 }
 
-/* Modal amplitudes of a state of the two freedoms: x = X q, q = X' M x. */
-static void set_state(const struct free_section_def *d, const struct model *m, double plunge,
-                      double pitch, double *q)
+/* Amplitudes in vacuo of a state of the two freedoms: x = X q, q = X' M x. */
+static void project(const struct free_section_def *d, const double *shape, double plunge,
+                    double pitch, double *vacuo)
 {
     const double off = -d->mass * d->imbalance;
-    double vacuo[FREEDOMS], lambda[FREEDOMS], shape[FREEDOMS * FREEDOMS];
-    if (solve_modes(d, lambda, shape) != ST_OK) {
-        return; /* cannot be: the model has been built from them */
-    }
     for (int j = 0; j < FREEDOMS; j++) {
         vacuo[j] = shape[num_at(PLUNGE, j, FREEDOMS)] * (d->mass * plunge + off * pitch) +
                    shape[num_at(PITCH, j, FREEDOMS)] * (off * plunge + d->inertia * pitch);
     }
-    apparent_mass_from_vacuo(m, vacuo, q);
+}
+
+static enum status set_start(const struct free_section_def *d, const struct model *m,
+                             struct workspace *w)
+{
+    double lambda[FREEDOMS], shape[FREEDOMS * FREEDOMS], vacuo[FREEDOMS];
+    const enum status st = solve_modes(d, lambda, shape);
+    if (st == ST_OK) {
+        project(d, shape, d->plunge, d->pitch, vacuo);
+        apparent_mass_from_vacuo(m, vacuo, w->q);
+        project(d, shape, d->plunge_rate, d->pitch_rate, vacuo);
+        apparent_mass_from_vacuo(m, vacuo, w->qd);
+    }
+    return st;
 }
 
 static void collect(const struct free_section_def *d, const struct record *record,
@@ -205,10 +214,11 @@ static enum status march(const struct free_section_def *d, struct model *m, stru
                          struct record *record, struct free_section_result *out)
 {
     struct march march;
-    set_state(d, m, d->plunge, d->pitch, w->q);
-    set_state(d, m, d->plunge_rate, d->pitch_rate, w->qd);
-    march_init(m, w, record, &march);
-    const enum status st = march_run(&march, NULL);
+    enum status st = set_start(d, m, w);
+    if (st == ST_OK) {
+        march_init(m, w, record, &march);
+        st = march_run(&march, NULL);
+    }
     if (st != ST_OK) {
         return st;
     }
