@@ -1,6 +1,7 @@
 #include "core/analysis/free_section.h"
 
 #include "core/coupling/apparent_mass.h"
+#include "core/coupling/excitation.h"
 #include "core/la.h"
 #include "core/num.h"
 #include "core/range.h"
@@ -105,25 +106,12 @@ static enum status solve_modes(const struct free_section_def *d, double *lambda,
 
 static enum status allocate(struct model *m)
 {
-    m->omega2 = calloc(6 * FREEDOMS + 1, sizeof *m->omega2);
-    m->tip = calloc(FREEDOMS, sizeof *m->tip);
-    m->modes = (struct modes){.n_mode = FREEDOMS, .omega = calloc(FREEDOMS, sizeof(double))};
-    m->excitation.mid_chord = calloc(1 + 3 * FREEDOMS, sizeof(double)); /* nothing drives */
-    if (m->omega2 == NULL || m->tip == NULL || m->modes.omega == NULL ||
-        m->excitation.mid_chord == NULL) {
-        return ST_NO_MEMORY;
+    enum status st = model_allocate(m);
+    if (st == ST_OK) {
+        st = excitation_allocate(m); /* nothing drives */
     }
-    m->damping = m->omega2 + FREEDOMS;
-    m->gravity = m->damping + FREEDOMS;
-    m->station_u = m->gravity + FREEDOMS;
-    m->station_v = m->station_u + FREEDOMS;
-    m->station_theta = m->station_v + FREEDOMS;
-    m->chord = m->station_theta + FREEDOMS;
-    m->chord[0] = chord;
-    m->excitation.plunge = m->excitation.mid_chord + 1;
-    m->excitation.pitch = m->excitation.plunge + FREEDOMS;
-    m->excitation.bending = m->excitation.pitch + FREEDOMS;
-    return ST_OK;
+    m->modes = (struct modes){.n_mode = FREEDOMS, .omega = calloc(FREEDOMS, sizeof(double))};
+    return st == ST_OK && m->modes.omega == NULL ? ST_NO_MEMORY : st;
 }
 
 static enum status fill_modes(const struct free_section_def *d, struct model *m)
@@ -152,6 +140,7 @@ enum status free_section_model(const struct free_section_def *def, struct model 
     fill_case(def, &m.def);
     enum status st = allocate(&m);
     if (st == ST_OK) {
+        m.chord[0] = chord;
         st = fill_modes(def, &m);
     }
     if (st == ST_OK) {

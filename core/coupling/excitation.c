@@ -54,17 +54,27 @@ static double rigid_bending(const struct model *m, enum beam_rigid motion)
     return sum;
 }
 
-enum status excitation_build(struct model *m)
+enum status excitation_allocate(struct model *m)
 {
     struct excitation *e = &m->excitation;
     const size_t nm = (size_t)m->n_mode, ns = (size_t)m->n_station;
-    e->mid_chord = malloc((ns + 3 * nm) * sizeof *e->mid_chord);
+    e->mid_chord = calloc(ns + 3 * nm, sizeof *e->mid_chord);
     if (e->mid_chord == NULL) {
         return ST_NO_MEMORY;
     }
     e->plunge = e->mid_chord + ns;
     e->pitch = e->plunge + nm;
     e->bending = e->pitch + nm;
+    return ST_OK;
+}
+
+enum status excitation_build(struct model *m)
+{
+    struct excitation *e = &m->excitation;
+    const enum status st = excitation_allocate(m);
+    if (st != ST_OK) {
+        return st;
+    }
     for (int i = 0; i < m->n_station; i++) {
         e->mid_chord[i] = beam_def_mid_chord_at(&m->def.beam, (i + 0.5) * m->station_length).x;
     }

@@ -12,6 +12,9 @@
 
 #include "core/coupling/workspace.h"
 
+/* Room, zeroed, in m->excitation of a model whose n_mode and n_station are set: nothing drives it.
+ */
+MUST_CHECK enum status excitation_allocate(struct model *m);
 /* Fills m->excitation of a model that is complete but for it. */
 MUST_CHECK enum status excitation_build(struct model *m);
 

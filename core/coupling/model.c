@@ -231,15 +231,11 @@ static double gravity_load(const struct beam *b, const double gravity[3], const 
     return sum;
 }
 
-static enum status build_transfer(struct model *m)
+enum status model_allocate(struct model *m)
 {
-    m->n_mode = m->modes.n_mode;
-    m->n_station = stations_of(m);
-    m->station_length = m->def.beam.length / m->n_station;
-    const size_t nm = (size_t)m->n_mode, block = nm * (size_t)m->n_station;
-    const size_t ns = (size_t)m->n_station;
-    m->omega2 = malloc((3 * nm + ns + 3 * block) * sizeof *m->omega2);
-    m->tip = malloc(nm * sizeof *m->tip);
+    const size_t nm = (size_t)m->n_mode, ns = (size_t)m->n_station, block = nm * ns;
+    m->omega2 = calloc(3 * nm + ns + 3 * block, sizeof *m->omega2);
+    m->tip = calloc(nm, sizeof *m->tip);
     if (m->omega2 == NULL || m->tip == NULL) {
         return ST_NO_MEMORY;
     }
@@ -249,6 +245,18 @@ static enum status build_transfer(struct model *m)
     m->station_u = m->chord + ns;
     m->station_v = m->station_u + block;
     m->station_theta = m->station_v + block;
+    return ST_OK;
+}
+
+static enum status build_transfer(struct model *m)
+{
+    m->n_mode = m->modes.n_mode;
+    m->n_station = stations_of(m);
+    m->station_length = m->def.beam.length / m->n_station;
+    const enum status st = model_allocate(m);
+    if (st != ST_OK) {
+        return st;
+    }
     m->area = 0.0;
     for (int i = 0; i < m->n_station; i++) {
         m->chord[i] = beam_def_chord_at(&m->def.beam, (i + 0.5) * m->station_length);

@@ -72,6 +72,9 @@ MUST_CHECK enum status model_build_like(const struct case_def *def, const struct
                                         struct model *out, struct failure *fail);
 void model_done(struct model *m);
 
+/* Room, zeroed, for what a model whose n_mode and n_station are set keeps of its modes and
+ * stations; model_done frees it, also after a failure. */
+MUST_CHECK enum status model_allocate(struct model *m);
 /* The aerodynamics of a model whose case, modes and stations are complete: what model_build does
  * last, for models that come from no beam (core/analysis/free_section.h). */
 MUST_CHECK enum status model_build_aero(struct model *m);
