@@ -63,8 +63,9 @@ static void scatter(const struct beam *b, int node, int n, const double *local, 
     }
 }
 
-double beam_rigid_at(const struct beam *b, int node, enum beam_freedom freedom,
-                     enum beam_rigid motion)
+/* Value of a node's freedom in a unit rigid motion. */
+static double rigid_at(const struct beam *b, int node, enum beam_freedom freedom,
+                       enum beam_rigid motion)
 {
     static const enum beam_freedom direction[BEAM_RIGID] = {D_U, D_V, D_W, D_THETA, D_DV};
     if (motion == RIGID_FLAP && freedom == D_V) {
@@ -82,9 +83,9 @@ static void scatter_inertia(struct beam *b, int node, int n, const double *m)
         for (int d = 0; d < BEAM_RIGID; d++) {
             double sum = 0.0;
             for (int j = 0; j < n; j++) {
-                sum += m[num_at(i, j, n)] * beam_rigid_at(b, node + j / NODE,
-                                                          (enum beam_freedom)(j % NODE),
-                                                          (enum beam_rigid)d);
+                sum +=
+                    m[num_at(i, j, n)] *
+                    rigid_at(b, node + j / NODE, (enum beam_freedom)(j % NODE), (enum beam_rigid)d);
             }
             if (row >= 0) {
                 b->inertia[num_at(row, d, b->n_dof)] += sum;
@@ -106,7 +107,7 @@ double beam_rigid_inertia(const struct beam *b, enum beam_rigid motion,
             const int a = (int)acceleration;
             const double load = node == 0 ? b->root_inertia[num_at(k, a, BEAM_NODE_FREEDOMS)]
                                           : b->inertia[num_at(row, a, b->n_dof)];
-            sum += load * beam_rigid_at(b, node, (enum beam_freedom)k, motion);
+            sum += load * rigid_at(b, node, (enum beam_freedom)k, motion);
         }
     }
     return sum;

@@ -107,9 +107,6 @@ void beam_done(struct beam *b);
 
 /* Index of a node's freedom (node 0 is the root) in the freedom vector, -1 where it is clamped. */
 int beam_index(const struct beam *b, int node, enum beam_freedom freedom);
-/* Value of a node's freedom in a unit rigid motion. */
-double beam_rigid_at(const struct beam *b, int node, enum beam_freedom freedom,
-                     enum beam_rigid motion);
 /* Inertial load on unit motion a of unit acceleration b, the clamped root included: m, its static
  * moment, its moments of inertia. */
 double beam_rigid_inertia(const struct beam *b, enum beam_rigid motion,
