@@ -92,8 +92,6 @@ static void put(const double *x, const double *y, struct sample_set *s)
 static enum status add_record(const struct dataset_def *def, const struct polar *polar,
                               const struct flow_record *r, bool held, struct dataset *d)
 {
-    static const enum flow_row row[NET_OUT_COUNT] = {
-        [NET_OUT_CL] = FLOW_CL, [NET_OUT_CM] = FLOW_CM, [NET_OUT_CD] = FLOW_CD};
     double *x = malloc((size_t)r->n * (NET_IN_COUNT + NET_OUT_COUNT) * sizeof *x);
     if (x == NULL) {
         return ST_NO_MEMORY;
@@ -101,15 +99,14 @@ static enum status add_record(const struct dataset_def *def, const struct polar 
     double *y = x + (ptrdiff_t)r->n * NET_IN_COUNT;
     flow_record_inputs(r, def->window, x);
     const enum status st = flow_record_march(r, &def->frame, polar, x, y);
+    if (st == ST_OK) {
+        flow_record_subtract(r, y);
+    }
     for (int i = flow_record_first(r); st == ST_OK && i < r->n; i += stride(def, r)) {
-        double *steady = y + num_at(0, i, NET_OUT_COUNT);
         const double *in = x + num_at(0, i, NET_IN_COUNT);
         const double alpha = in[NET_IN_ALPHA];
         d->outside_polar += polar_at(polar, alpha, r->value[num_at(i, FLOW_W, r->n)]).outside;
-        for (int o = 0; o < NET_OUT_COUNT; o++) {
-            steady[o] = r->value[num_at(i, row[o], r->n)] - steady[o];
-        }
-        put(in, steady, held ? &d->held : &d->trained);
+        put(in, y + num_at(0, i, NET_OUT_COUNT), held ? &d->held : &d->trained);
     }
     free(x);
     return st;

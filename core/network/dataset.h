@@ -65,6 +65,9 @@ MUST_CHECK enum status flow_record_march(const struct flow_record *r,
                                          const struct polar *polar, double *x, double *y);
 /* Coefficients of the polar at the instantaneous angle and plunge: y (NET_OUT_COUNT x n). */
 void flow_record_steady(const struct flow_record *r, const struct polar *polar, double *y);
+/* Increments: y (NET_OUT_COUNT x n), the coefficients of a model, becomes what the record has
+ * beyond them. */
+void flow_record_subtract(const struct flow_record *r, double *y);
 
 struct dataset_def {
     const struct polar_def *polar; /* borrowed, checked */

@@ -223,3 +223,15 @@ void flow_record_steady(const struct flow_record *r, const struct polar *polar, 
         out[NET_OUT_CD] = v.cd;
     }
 }
+
+void flow_record_subtract(const struct flow_record *r, double *y)
+{
+    static const enum flow_row row[NET_OUT_COUNT] = {
+        [NET_OUT_CL] = FLOW_CL, [NET_OUT_CM] = FLOW_CM, [NET_OUT_CD] = FLOW_CD};
+    for (int i = 0; i < r->n; i++) {
+        for (int o = 0; o < NET_OUT_COUNT; o++) {
+            double *v = y + num_at(o, i, NET_OUT_COUNT);
+            *v = value(r, row[o], i) - *v;
+        }
+    }
+}

@@ -48,20 +48,6 @@ static int shorter(const void *a, const void *b)
                                 : x->record - y->record;
 }
 
-/* Increments of a record, sample fastest by output: y (NET_OUT_COUNT x n). */
-static void increments(const struct flow_record *r, const struct polar *polar, double *y)
-{
-    static const enum flow_row row[NET_OUT_COUNT] = {
-        [NET_OUT_CL] = FLOW_CL, [NET_OUT_CM] = FLOW_CM, [NET_OUT_CD] = FLOW_CD};
-    flow_record_steady(r, polar, y);
-    for (int i = 0; i < r->n; i++) {
-        for (int o = 0; o < NET_OUT_COUNT; o++) {
-            double *v = y + num_at(o, i, NET_OUT_COUNT);
-            *v = r->value[num_at(i, (int)row[o], r->n)] - *v;
-        }
-    }
-}
-
 static void pack_targets(const struct flow_record *r, const struct network_def *net,
                          const double *y, int stride, double sign, int lane, struct lstm_group *g)
 {
@@ -108,7 +94,8 @@ static enum status group_build(const struct dataset_def *def, const struct polar
         }
         double *y = in + (ptrdiff_t)r->n * NET_IN_COUNT;
         flow_record_inputs(r, def->window, in);
-        increments(r, polar, y);
+        flow_record_steady(r, polar, y);
+        flow_record_subtract(r, y);
         for (int side = 0; side < 2; side++) {
             const double sign = side == 0 ? 1.0 : -1.0;
             const int stride = lstm_stride(r, step);
