@@ -105,9 +105,18 @@ double warping_flow(const double *reduced, int row, const double e[WALL_STRAINS]
     return sum;
 }
 
-void warping_bare_strain(const struct contour_point *p, int k, double stretched, double across,
-                         double e[WALL_STRAINS])
+int warping_strain_count(const struct warping *w)
 {
+    return w->camber.on ? (int)SECTION_WARPED : (int)S_CAMBER_RATE;
+}
+
+void warping_bare_strain(const struct warping *w, const struct contour_point *p, int k,
+                         double stretched, double across, double e[WALL_STRAINS])
+{
+    if (k == S_CAMBER_RATE) {
+        camber_rate_strain(&w->camber, p, e);
+        return;
+    }
     memset(e, 0, WALL_STRAINS * sizeof *e);
     switch ((enum section_strain)k) {
     case S_W:
@@ -145,16 +154,11 @@ void warping_strains(const struct warping *w, const struct contour_element *el,
 {
     const struct warping_basis b = warping_basis_at(w, el, p);
     const struct warping_field vlasov = field_of(w, &b, WARPING_VLASOV);
-    double *rate = e + WALL_STRAINS * (ptrdiff_t)S_CAMBER_RATE;
-    memset(rate, 0, WALL_STRAINS * sizeof *rate);
-    for (int k = 0; k < (w->camber.on ? (int)N : (int)S_CAMBER_RATE); k++) {
+    memset(e + WALL_STRAINS * (ptrdiff_t)S_CAMBER_RATE, 0, WALL_STRAINS * sizeof *e);
+    for (int k = 0; k < warping_strain_count(w); k++) {
         const struct warping_field f = field_of(w, &b, k);
-        if (k == S_CAMBER_RATE) {
-            camber_rate_strain(&w->camber, p, rate);
-        } else {
-            warping_bare_strain(p, k, vlasov.g, across_of(w, p, vlasov.turn),
-                                e + WALL_STRAINS * (ptrdiff_t)k);
-        }
+        warping_bare_strain(w, p, k, vlasov.g, across_of(w, p, vlasov.turn),
+                            e + WALL_STRAINS * (ptrdiff_t)k);
         e[W_GAMMA + WALL_STRAINS * k] += f.g_slope;
         e[W_TWIST + WALL_STRAINS * k] += f.turn_slope;
     }

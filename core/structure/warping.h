@@ -68,6 +68,10 @@ struct warping {
     struct camber_line camber; /* of the contour */
 };
 
+/* How many strains warp the walls: that of S_CAMBER_RATE, the last, only where the curvature across
+ * is an amplitude. */
+int warping_strain_count(const struct warping *w);
+
 /* Both sets from one factorisation. ST_SINGULAR when a wall has no shear stiffness or the walls do
  * not hang together. */
 MUST_CHECK enum status warping_solve(const struct contour *c, const struct laminate *laminate,
@@ -129,8 +133,8 @@ void warping_unit_strains(const struct warping *w, const struct contour_element 
  * own slope, and gamma_nz of the section's shears alone, Eq. (A.7).
  * DEVIATION (A.6): gamma_sz contains theta', the print has phi'. `stretched` is the warping that
  * theta'' stretches at the point, `across` its slope across the wall. */
-void warping_bare_strain(const struct contour_point *p, int k, double stretched, double across,
-                         double e[WALL_STRAINS]);
+void warping_bare_strain(const struct warping *w, const struct contour_point *p, int k,
+                         double stretched, double across, double e[WALL_STRAINS]);
 double warping_bare_normal_shear(const struct contour_point *p, int k);
 
 /* Entry `row` of reduced (WALL_STRAINS x WALL_STRAINS) times e. */

@@ -1,7 +1,6 @@
 /* The minimisation behind core/structure/warping.h. */
 #include "core/la.h"
 #include "core/num.h"
-#include "core/structure/camber.h"
 #include "core/structure/warping.h"
 
 #include <assert.h>
@@ -76,11 +75,7 @@ static void add_load(const struct contour *c, const struct laminate *lam, const 
             stretched = warping_at(w, el, &p, WARPING_VLASOV);
             across = warping_across(w, el, &p);
         }
-        if (k == S_CAMBER_RATE) {
-            camber_rate_strain(&w->camber, &p, e);
-        } else {
-            warping_bare_strain(&p, k, stretched, across, e);
-        }
+        warping_bare_strain(w, &p, k, stretched, across, e);
         const double flow = warping_flow(l->reduced, W_GAMMA, e);
         const double twist = warping_flow(l->reduced, W_TWIST, e);
         const double normal = l->shear_zn * warping_bare_normal_shear(&p, k);
@@ -235,18 +230,12 @@ static enum status constrain(const struct system *s, const struct couples *coupl
     return st;
 }
 
-/* Strains whose warping is asked for. */
-static int warped(const struct warping *w)
-{
-    return w->camber.on ? (int)N : (int)S_CAMBER_RATE;
-}
-
 static void solve_classic(const struct contour *c, const struct laminate *lam,
                           const struct system *s, struct warping *w, struct couples *couples)
 {
     const int n = w->n_value;
     double *flow = s->constraint; /* scratch until the retained set is solved */
-    for (int k = 0; k < warped(w); k++) {
+    for (int k = 0; k < warping_strain_count(w); k++) {
         if (k != S_THETA2) {
             add_load(c, lam, w, k, w->g + num_at(0, k, n));
             solve_held(s, w->g + num_at(0, k, n));
@@ -255,7 +244,7 @@ static void solve_classic(const struct contour *c, const struct laminate *lam,
     memset(flow, 0, (size_t)n * sizeof *flow);
     axial_flow(c, lam, w, S_W, flow);
     integrate_couples(c, lam, w, couples);
-    for (int k = 0; k < warped(w); k++) {
+    for (int k = 0; k < warping_strain_count(w); k++) {
         if (k != S_THETA2) {
             remove_mean(w->n_node, n, flow, k == S_THETA ? couples->warping[0] : 0.0,
                         w->g + num_at(0, k, n));
@@ -392,7 +381,7 @@ static enum status solve_retained(const struct contour *c, const struct laminate
         solve_held(s, response);
     }
     enum status st = ST_OK;
-    for (int k = 0; k < warped(w) && st == ST_OK; k++) {
+    for (int k = 0; k < warping_strain_count(w) && st == ST_OK; k++) {
         double *g = w->g + num_at(0, k, n);
         if (k != S_THETA2) { /* without the constraints it is the classic warping */
             memcpy(g, classic->g + num_at(0, k, n), (size_t)n * sizeof *g);
