@@ -15,29 +15,9 @@ enum simd_level simd_level_of_machine(void)
     return SIMD_PORTABLE;
 }
 
-#define KERNEL_NAME gemv_portable
-#define KERNEL_WIDTH SIMD_WIDTH_PORTABLE
-#define KERNEL_TARGET
-#include "core/simd_gemv.inc"
-#undef KERNEL_NAME
-#undef KERNEL_WIDTH
-#undef KERNEL_TARGET
-
-#define KERNEL_NAME gemv_avx2
-#define KERNEL_WIDTH SIMD_WIDTH_AVX2
-#define KERNEL_TARGET SIMD_TARGET_AVX2
-#include "core/simd_gemv.inc"
-#undef KERNEL_NAME
-#undef KERNEL_WIDTH
-#undef KERNEL_TARGET
-
-#define KERNEL_NAME gemv_avx512
-#define KERNEL_WIDTH SIMD_WIDTH_AVX512
-#define KERNEL_TARGET SIMD_TARGET_AVX512
-#include "core/simd_gemv.inc"
-#undef KERNEL_NAME
-#undef KERNEL_WIDTH
-#undef KERNEL_TARGET
+#define KERNEL_STEM gemv
+#define KERNEL_FILE "core/simd_gemv.inc"
+#include "core/simd_levels.inc"
 
 simd_gemv_fn simd_gemv(enum simd_level level)
 {

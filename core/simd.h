@@ -24,7 +24,8 @@ enum simd_level { SIMD_PORTABLE, SIMD_AVX2, SIMD_AVX512, SIMD_LEVELS };
 /* Best level of this machine. */
 enum simd_level simd_level_of_machine(void);
 
-/* Names in a template that is included once per instruction set (.inc): each inclusion defines
+/* Names in a template that core/simd_levels.inc includes once per instruction set (.inc): each
+ * inclusion defines
  *   KERNEL_NAME    of its function; SIMD_KERNEL(x) names the parts
  *   KERNEL_TARGET  attribute that selects the instruction set
  *   KERNEL_WIDTH   doubles of its vectors: what one register holds, since wider vectors are carried

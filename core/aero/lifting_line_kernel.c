@@ -15,29 +15,9 @@ double lifting_line_largest(int n, const double *x)
     return largest;
 }
 
-#define KERNEL_NAME residual_portable
-#define KERNEL_WIDTH SIMD_WIDTH_PORTABLE
-#define KERNEL_TARGET
-#include "core/aero/lifting_line_kernel.inc"
-#undef KERNEL_NAME
-#undef KERNEL_WIDTH
-#undef KERNEL_TARGET
-
-#define KERNEL_NAME residual_avx2
-#define KERNEL_WIDTH SIMD_WIDTH_AVX2
-#define KERNEL_TARGET SIMD_TARGET_AVX2
-#include "core/aero/lifting_line_kernel.inc"
-#undef KERNEL_NAME
-#undef KERNEL_WIDTH
-#undef KERNEL_TARGET
-
-#define KERNEL_NAME residual_avx512
-#define KERNEL_WIDTH SIMD_WIDTH_AVX512
-#define KERNEL_TARGET SIMD_TARGET_AVX512
-#include "core/aero/lifting_line_kernel.inc"
-#undef KERNEL_NAME
-#undef KERNEL_WIDTH
-#undef KERNEL_TARGET
+#define KERNEL_STEM residual
+#define KERNEL_FILE "core/aero/lifting_line_kernel.inc"
+#include "core/simd_levels.inc"
 
 lifting_line_kernel_fn lifting_line_kernel(enum simd_level level)
 {

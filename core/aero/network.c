@@ -166,29 +166,9 @@ void network_def_check(const struct network_def *def, const char *pointer, struc
     }
 }
 
-#define KERNEL_NAME kernel_portable
-#define KERNEL_WIDTH SIMD_WIDTH_PORTABLE
-#define KERNEL_TARGET
-#include "core/aero/network_kernel.inc"
-#undef KERNEL_NAME
-#undef KERNEL_WIDTH
-#undef KERNEL_TARGET
-
-#define KERNEL_NAME kernel_avx2
-#define KERNEL_WIDTH SIMD_WIDTH_AVX2
-#define KERNEL_TARGET SIMD_TARGET_AVX2
-#include "core/aero/network_kernel.inc"
-#undef KERNEL_NAME
-#undef KERNEL_WIDTH
-#undef KERNEL_TARGET
-
-#define KERNEL_NAME kernel_avx512
-#define KERNEL_WIDTH SIMD_WIDTH_AVX512
-#define KERNEL_TARGET SIMD_TARGET_AVX512
-#include "core/aero/network_kernel.inc"
-#undef KERNEL_NAME
-#undef KERNEL_WIDTH
-#undef KERNEL_TARGET
+#define KERNEL_STEM kernel
+#define KERNEL_FILE "core/aero/network_kernel.inc"
+#include "core/simd_levels.inc"
 
 static const network_kernel_fn kernel_of_level[SIMD_LEVELS] = {kernel_portable, kernel_avx2,
                                                                kernel_avx512};
