@@ -1,18 +1,14 @@
 #include "api/dataset.h"
 
-#include "api/embedded.h"
-#include "api/hash.h"
+#include "api/shelf.h"
 #include "core/num.h"
 
-#include <cjson/cJSON.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zstd.h>
 
 enum { EXPANDED_MAX = 512 << 20, LEVEL = 6 };
-
-const char dataset_built_in[] = "plate-4pct";
 
 void dataset_entry_done(struct dataset_entry *e)
 {
@@ -114,81 +110,11 @@ void dataset_check(const struct dataset_entry *e, struct failure_list *problems)
     }
 }
 
-/* -- JSON ------------------------------------------------------------------------------- */
+const char dataset_built_in[] = "plate-4pct";
 
-static const double *row_of(const struct flow_record *r, int row)
+bool dataset_is_built_in(const char *name)
 {
-    return r->value + num_at(0, row, r->n);
-}
-
-static void write_range(struct json_out *out, const char *key, double low, double high)
-{
-    json_key(out, key);
-    json_object_begin(out);
-    json_key_number(out, "min", low);
-    json_key_number(out, "max", high);
-    json_object_end(out);
-}
-
-static void row_range(const struct flow_record *r, int row, double *low, double *high)
-{
-    const double *v = row_of(r, row);
-    const double unit = row == FLOW_THETA ? 180.0 / NUM_PI : 1.0;
-    for (int i = 0; i < r->n; i++) {
-        *low = fmin(*low, v[i] * unit);
-        *high = fmax(*high, v[i] * unit);
-    }
-}
-
-static const int ranged[] = {FLOW_THETA, FLOW_W, FLOW_CL, FLOW_CD, FLOW_CM};
-enum { RANGED = sizeof ranged / sizeof ranged[0] };
-
-void dataset_write_head(struct json_out *out, const struct dataset_entry *e)
-{
-    long long samples = 0;
-    json_key_string(out, "name", e->name);
-    json_key_string(out, "hash", e->hash);
-    json_key(out, "description");
-    json_raw(out, e->description);
-    json_key(out, "provenance");
-    json_raw(out, e->provenance);
-    json_key_integer(out, "count", e->n_record);
-    for (int i = 0; i < e->n_record; i++) {
-        samples += e->record[i].n;
-    }
-    json_key_integer(out, "samples", samples);
-    for (int k = 0; k < RANGED; k++) {
-        double low = INFINITY, high = (double)-INFINITY;
-        for (int i = 0; i < e->n_record; i++) {
-            row_range(&e->record[i], ranged[k], &low, &high);
-        }
-        write_range(out, dataset_columns[DATASET_FLOW + ranged[k]], low, high);
-    }
-}
-
-void dataset_write_records(struct json_out *out, const struct dataset_entry *e)
-{
-    json_array_begin(out);
-    for (int i = 0; i < e->n_record; i++) {
-        const struct flow_record *r = &e->record[i];
-        json_object_begin(out);
-        json_key_string(out, "name", r->name);
-        json_key_integer(out, "samples", r->n);
-        json_key_number(out, "step_c_v", flow_record_step(r));
-        json_key_number(out, "from_c_v", row_of(r, FLOW_TIME)[0]);
-        json_key_number(out, "to_c_v", row_of(r, FLOW_TIME)[r->n - 1]);
-        json_key_number(out, "period_c_v", r->period);
-        json_key_number(out, "start_c_v", r->start);
-        json_key(out, "moves");
-        json_boolean(out, flow_record_moves(r));
-        for (int k = 0; k < RANGED; k++) {
-            double low = INFINITY, high = (double)-INFINITY;
-            row_range(r, ranged[k], &low, &high);
-            write_range(out, dataset_columns[DATASET_FLOW + ranged[k]], low, high);
-        }
-        json_object_end(out);
-    }
-    json_array_end(out);
+    return strcmp(name, dataset_built_in) == 0;
 }
 
 /* -- compression ------------------------------------------------------------------------ */
@@ -220,89 +146,4 @@ char *dataset_expand(const void *packed, size_t size, size_t *text_size)
     text[n] = '\0';
     *text_size = (size_t)n;
     return text;
-}
-
-/* -- loading ---------------------------------------------------------------------------- */
-
-static enum service_status expand(const void *packed, size_t size, struct dataset_entry *out)
-{
-    size_t n = 0;
-    char *text = dataset_expand(packed, size, &n);
-    struct failure_list *problems = calloc(1, sizeof *problems);
-    const bool read =
-        text != NULL && problems != NULL && dataset_read_csv(text, n, out, problems) == ST_OK;
-    if (read) {
-        hash_text(text, n, out->hash);
-    }
-    free(problems);
-    free(text);
-    return read ? SERVICE_OK : SERVICE_ERROR;
-}
-
-static enum service_status load_built_in(struct dataset_entry *out)
-{
-    static const char description[] = "\"Coefficients of the square-edged 4 % plate in pitch and "
-                                      "plunge, from flow computations\"";
-    out->description = strdup(description);
-    return out->description != NULL
-               ? expand(dataset_files[0].data, embedded_size(&dataset_files[0]), out)
-               : SERVICE_ERROR;
-}
-
-enum service_status dataset_load(const struct library *lib, const char *reference,
-                                 struct dataset_entry *out, int *version)
-{
-    const struct shelf *shelf = library_shelf(lib);
-    struct dataset_entry e = {.n_record = 0};
-    struct shelf_entry kept = {.version = 1};
-    int wanted = 0;
-    if (!shelf_reference(reference, e.name, &wanted)) {
-        return SERVICE_NOT_FOUND;
-    }
-    enum service_status st = SERVICE_NOT_FOUND;
-    if (strcmp(e.name, dataset_built_in) == 0) {
-        st = wanted <= 1 ? load_built_in(&e) : SERVICE_NOT_FOUND;
-    } else if (shelf != NULL) {
-        st = shelf->get(shelf->ctx, SHELF_DATASET, e.name, wanted, &kept);
-        if (st == SERVICE_OK) {
-            st = expand(kept.data, kept.size, &e);
-        }
-    }
-    if (st == SERVICE_OK) {
-        if (version != NULL) {
-            *version = kept.version;
-        }
-        *out = e;
-    } else {
-        dataset_entry_done(&e);
-    }
-    shelf_entry_done(&kept);
-    return st;
-}
-
-enum service_status dataset_find(const struct library *lib, const char *reference,
-                                 char name[LIMIT_NAME], int *version, char hash[LIMIT_HASH])
-{
-    const struct shelf *shelf = library_shelf(lib);
-    int wanted = 0;
-    if (!shelf_reference(reference, name, &wanted)) {
-        return SERVICE_NOT_FOUND;
-    }
-    if (strcmp(name, dataset_built_in) == 0) {
-        struct dataset_entry e = {.n_record = 0};
-        const enum service_status st = dataset_load(lib, reference, &e, version);
-        memcpy(hash, e.hash, sizeof e.hash);
-        dataset_entry_done(&e);
-        return st;
-    }
-    struct shelf_entry kept = {.version = 0};
-    const enum service_status st = shelf != NULL
-                                       ? shelf->get(shelf->ctx, SHELF_DATASET, name, wanted, &kept)
-                                       : SERVICE_NOT_FOUND;
-    if (st == SERVICE_OK) {
-        *version = kept.version;
-        memcpy(hash, kept.hash, sizeof kept.hash);
-    }
-    shelf_entry_done(&kept);
-    return st;
 }

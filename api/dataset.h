@@ -63,11 +63,15 @@ void dataset_write_svg(struct json_out *out, const struct flow_record *r);
 void *dataset_compress(const char *text, size_t size, size_t *packed_size);
 char *dataset_expand(const void *packed, size_t size, size_t *text_size);
 
-/* The one that is compiled in. */
+/* The one that is compiled in, and what a list shows of it: members as dataset_write_head's. */
 extern const char dataset_built_in[];
-/* Loads what "name" or "name@version" refers to; *version may be NULL. SERVICE_NOT_FOUND. */
+bool dataset_is_built_in(const char *name);
+const char *dataset_built_in_head(void);
+/* Loads what "name" or "name@version" refers to, without its notes, which stand in the head of
+ * *kept (NULL: not asked for; of the one compiled in it has head and version only), freed with
+ * shelf_entry_done. SERVICE_NOT_FOUND. */
 enum service_status dataset_load(const struct library *lib, const char *reference,
-                                 struct dataset_entry *out, int *version);
+                                 struct dataset_entry *out, struct shelf_entry *kept);
 /* Version and hash only. */
 enum service_status dataset_find(const struct library *lib, const char *reference,
                                  char name[LIMIT_NAME], int *version, char hash[LIMIT_HASH]);

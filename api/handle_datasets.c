@@ -17,23 +17,18 @@
 
 void handle_datasets(const struct api_call *call, struct api_response *res)
 {
-    const struct library *lib = call->api->library;
+    const char *head = dataset_built_in_head();
     struct json_out out = {0};
-    struct dataset_entry e = {.n_record = 0};
-    enum service_status st = dataset_load(lib, dataset_built_in, &e, NULL);
-    if (st == SERVICE_OK) {
-        json_object_begin(&out);
-        json_key(&out, "datasets");
-        json_array_begin(&out);
-        json_object_begin(&out);
-        dataset_write_head(&out, &e);
-        library_version_members(&out, NULL);
-        json_object_end(&out);
-        st = library_shelf_members(&out, lib, SHELF_DATASET);
-        json_array_end(&out);
-        json_object_end(&out);
-    }
-    dataset_entry_done(&e);
+    json_object_begin(&out);
+    json_key(&out, "datasets");
+    json_array_begin(&out);
+    json_object_begin(&out);
+    json_members(&out, head, strlen(head));
+    library_version_members(&out, NULL);
+    json_object_end(&out);
+    const enum service_status st = library_shelf_members(&out, call->api->library, SHELF_DATASET);
+    json_array_end(&out);
+    json_object_end(&out);
     size_t size = 0;
     char *body = json_out_take(&out, &size);
     if (st != SERVICE_OK) {
@@ -124,43 +119,24 @@ static void write_columns(struct json_out *out, const struct flow_record *r)
     json_object_end(out);
 }
 
-/* What the head of a shelf's entry says of its notes. */
-static enum service_status write_item(struct json_out *out, const struct library *lib,
-                                      const struct dataset_entry *e, int version)
+static void write_item(struct json_out *out, const struct dataset_entry *e,
+                       const struct shelf_entry *kept)
 {
-    const struct shelf *shelf = library_shelf(lib);
-    struct shelf_entry kept = {.version = 0};
-    const bool built_in = strcmp(e->name, dataset_built_in) == 0;
-    if (!built_in) {
-        const enum service_status st =
-            shelf->get(shelf->ctx, SHELF_DATASET, e->name, version, &kept);
-        if (st != SERVICE_OK) {
-            return st;
-        }
-    }
     json_object_begin(out);
-    if (built_in) {
-        dataset_write_head(out, e);
-    } else {
-        json_out_text(out, kept.head);
-        out->separate = true;
-    }
-    library_version_members(out, built_in ? NULL : &kept);
+    json_members(out, kept->head, strlen(kept->head));
+    library_version_members(out, dataset_is_built_in(e->name) ? NULL : kept);
     json_key(out, "records");
     dataset_write_records(out, e);
     json_object_end(out);
-    shelf_entry_done(&kept);
-    return SERVICE_OK;
 }
 
 static void show(const struct api_call *call, struct api_response *res, struct dataset_entry *e,
-                 int version)
+                 const struct shelf_entry *kept)
 {
     const bool one = call->tail[0] != '\0';
     char record[ROUTE_PARAM_SIZE];
     struct json_out out = {0};
     size_t size = 0;
-    enum service_status st = SERVICE_OK;
     (void)snprintf(record, sizeof record, "%s", call->tail);
     bool found = !one || keep_record(e, record);
     enum format format = found ? FORMATS : cut_format(record);
@@ -182,14 +158,9 @@ static void show(const struct api_call *call, struct api_response *res, struct d
     } else if (one) {
         write_columns(&out, &e->record[0]);
     } else {
-        st = write_item(&out, call->api->library, e, version);
+        write_item(&out, e, kept);
     }
     char *body = json_out_take(&out, &size);
-    if (st != SERVICE_OK) {
-        free(body);
-        respond_service(res, st, "");
-        return;
-    }
     api_response_header(res, "Vary", "Accept");
     respond_tagged(call, res, formats[format].sent, respond_revalidate, body, size);
 }
@@ -197,6 +168,7 @@ static void show(const struct api_call *call, struct api_response *res, struct d
 void handle_dataset(const struct api_call *call, struct api_response *res)
 {
     struct dataset_entry e = {.n_record = 0};
+    struct shelf_entry kept = {.version = 0};
     char reference[ROUTE_PARAM_SIZE + 16];
     int version = 0;
     if (!shelf_query_version(call, res, &version)) {
@@ -205,15 +177,16 @@ void handle_dataset(const struct api_call *call, struct api_response *res)
     (void)snprintf(reference, sizeof reference, version > 0 ? "%s@%d" : "%s", call->param, version);
     const enum service_status st = strchr(call->param, '@') != NULL
                                        ? SERVICE_NOT_FOUND
-                                       : dataset_load(call->api->library, reference, &e, &version);
+                                       : dataset_load(call->api->library, reference, &e, &kept);
     if (st == SERVICE_NOT_FOUND) {
         shelf_unknown(res, SHELF_DATASET, call->param);
     } else if (st != SERVICE_OK) {
         respond_service(res, st, "");
     } else {
-        show(call, res, &e, version);
+        show(call, res, &e, &kept);
     }
     dataset_entry_done(&e);
+    shelf_entry_done(&kept);
 }
 
 /* -- POST ------------------------------------------------------------------------------- */
@@ -319,7 +292,7 @@ static void add(const struct api_call *call, struct api_response *res, size_t re
     } else if (strchr(e.name, '/') != NULL) {
         problem_response(res, PROBLEM_INVALID_ENTRY, "the name of a dataset has no '/'", NULL,
                          NULL);
-    } else if (!shelf_name_is_free(res, strcmp(e.name, dataset_built_in) == 0, e.name)) {
+    } else if (!shelf_name_is_free(res, dataset_is_built_in(e.name), e.name)) {
         /* answered */
     } else if (seal(&e, &entry)) {
         shelf_put_new(call, res, SHELF_DATASET, &entry);
@@ -347,5 +320,5 @@ void handle_add_dataset(const struct api_call *call, struct api_response *res)
 
 void handle_remove_dataset(const struct api_call *call, struct api_response *res)
 {
-    shelf_remove(call, res, SHELF_DATASET, strcmp(call->param, dataset_built_in) == 0);
+    shelf_remove(call, res, SHELF_DATASET, dataset_is_built_in(call->param));
 }

@@ -216,6 +216,12 @@ void json_raw(struct json_out *out, const char *json)
     json_out_text(out, json != NULL ? json : "null");
 }
 
+void json_members(struct json_out *out, const char *text, size_t size)
+{
+    value_begin(out);
+    json_out_bytes(out, text, size);
+}
+
 void json_key_string(struct json_out *out, const char *key, const char *text)
 {
     json_key(out, key);

@@ -38,6 +38,8 @@ void json_boolean(struct json_out *out, bool value);
 void json_null(struct json_out *out);
 /* A value that already is JSON text; NULL prints null. */
 void json_raw(struct json_out *out, const char *json);
+/* Members of an object that already are JSON text. */
+void json_members(struct json_out *out, const char *text, size_t size);
 
 /* Key and value in one call. */
 void json_key_string(struct json_out *out, const char *key, const char *text);

@@ -147,13 +147,6 @@ void library_version_members(struct json_out *out, const struct shelf_entry *e)
     json_key_string(out, "job", e != NULL && e->job[0] != '\0' ? e->job : NULL);
 }
 
-/* Members of an object that are text already. */
-static void members(struct json_out *out, const char *text, size_t size)
-{
-    json_out_bytes(out, text, size);
-    out->separate = true;
-}
-
 enum service_status library_shelf_members(struct json_out *out, const struct library *lib,
                                           enum shelf_kind kind)
 {
@@ -165,11 +158,8 @@ enum service_status library_shelf_members(struct json_out *out, const struct lib
     }
     const enum service_status st = shelf->list(shelf->ctx, kind, &list, &n);
     for (int i = 0; st == SERVICE_OK && i < n; i++) {
-        if (out->separate) {
-            json_out_text(out, ",");
-        }
-        json_out_text(out, "{");
-        members(out, list[i].head, strlen(list[i].head));
+        json_object_begin(out);
+        json_members(out, list[i].head, strlen(list[i].head));
         library_version_members(out, &list[i]);
         json_object_end(out);
     }
@@ -232,7 +222,7 @@ enum service_status library_entry_json(const struct library *lib, enum shelf_kin
     const enum service_status st =
         shelf != NULL ? shelf->get(shelf->ctx, kind, name, version, &e) : SERVICE_NOT_FOUND;
     if (st == SERVICE_OK) {
-        members(&out, e.data, e.size - 1); /* without the last bracket */
+        json_members(&out, e.data, e.size - 1); /* without the last bracket */
         json_key_string(&out, "hash", e.hash);
         if (kind == SHELF_MATERIAL) {
             json_key_string(&out, "provenance", NULL);

@@ -5,6 +5,7 @@
 #include "core/num.h"
 #include "core/random.h"
 
+#include <cjson/cJSON.h>
 #include <hdf5.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -236,6 +237,40 @@ static void one_content_in_three_forms(void **state)
     free(csv);
 }
 
+/* Head and hash that the build has made of the shipped dataset are those of its records. */
+static void the_shipped_one(void **state)
+{
+    (void)state;
+    struct library *lib = NULL;
+    struct failure fail;
+    struct dataset_entry e = {.n_record = 0};
+    struct shelf_entry kept = {.version = 0};
+    char name[LIMIT_NAME], hash[LIMIT_HASH];
+    int version = 0;
+    assert_int_equal(library_create_builtin(&lib, &fail), ST_OK);
+    assert_int_equal(dataset_load(lib, dataset_built_in, &e, &kept), SERVICE_OK);
+    assert_int_equal(dataset_find(lib, dataset_built_in, name, &version, hash), SERVICE_OK);
+    assert_string_equal(name, e.name);
+    assert_string_equal(hash, e.hash);
+    assert_int_equal(version, kept.version);
+    struct json_out text = {0}, note = {0}, head = {0};
+    json_object_begin(&text);
+    json_members(&text, kept.head, strlen(kept.head));
+    json_object_end(&text);
+    struct cJSON *tree = NULL;
+    assert_int_equal(json_parse(text.text, text.size, &tree, &fail), ST_OK);
+    json_value(&note, cJSON_GetObjectItemCaseSensitive(tree, "description"));
+    e.description = json_out_take(&note, NULL);
+    dataset_write_head(&head, &e);
+    assert_string_equal(head.text, kept.head);
+    json_free(tree);
+    json_out_done(&text);
+    json_out_done(&head);
+    dataset_entry_done(&e);
+    shelf_entry_done(&kept);
+    library_destroy(lib);
+}
+
 static void hdf5_stays_in_the_file(void **state)
 {
     (void)state;
@@ -316,6 +351,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(one_content_in_three_forms, reset),
+        cmocka_unit_test_setup(the_shipped_one, reset),
         cmocka_unit_test_setup(hdf5_stays_in_the_file, reset),
         cmocka_unit_test_setup(hdf5_that_was_cut, reset),
         cmocka_unit_test_setup(damaged_texts, reset),
