@@ -89,19 +89,25 @@ enum store_status sqlite_finish_job(struct store_session *s, int64_t seq, enum j
 enum store_status sqlite_move_job(struct store_session *s, int64_t seq, enum job_state from,
                                   enum job_state to, int64_t finished);
 
-/* The units of a study: made when it is accepted; extended; taken back, STORE_NONE when none is
+/* The units of a study: made when it is accepted; taken back, STORE_NONE when none is
  * lost; the waiting ones of a study that is being cancelled taken away, which ends it unless some
  * are leased. */
 enum store_status sqlite_insert_study(struct store_session *s, int64_t seq,
                                       const struct study_plan *plan);
-enum store_status sqlite_heartbeat_unit(struct store_session *s, const struct store_ticket *t,
-                                        int64_t lease_until);
 enum store_status sqlite_recover_unit(struct store_session *s, const char *owner, int64_t now,
                                       struct store_recovered *count);
 enum store_status sqlite_stop_study(struct store_session *s, int64_t seq, int64_t now);
-/* Sequence number and state of the study whose unit the ticket still holds. */
+/* Sequence number and state of the job that the ticket still holds: `lease` finds its row by
+ * sequence number, unit and fence. STORE_CONFLICT when it does not. */
+enum store_status sqlite_redeem(struct store_session *s, const char *lease,
+                                const struct store_ticket *t, int64_t *seq, enum job_state *state);
+/* The same of a unit and its study. */
 enum store_status sqlite_redeem_unit(struct store_session *s, const struct store_ticket *t,
                                      int64_t *seq, enum job_state *state);
+
+/* Number of the stored answer to an equal case; *out is unchanged when there is none. */
+enum store_status sqlite_find_answer(struct store_session *s, const char *content_hash,
+                                     int64_t *out);
 
 /* Stores the result of a job whose fence has been checked. */
 enum store_status sqlite_insert_result(struct store_session *s, int64_t seq, int64_t fence,

@@ -90,17 +90,23 @@ enum store_status sqlite_get_cells(struct store_session *s, const char *id, int 
     return STORE_OK;
 }
 
-enum store_status sqlite_find_known(struct store_session *s, const char *content_hash,
-                                    struct store_known *out)
+enum store_status sqlite_find_answer(struct store_session *s, const char *content_hash,
+                                     int64_t *out)
 {
-    struct store_known known = {.known = 0};
     struct sql q = sql_begin(s, "SELECT id FROM cell_result WHERE content_hash = ?1 "
                                 "AND state = 'done'");
     sql_text(&q, content_hash);
     if (sql_row(&q)) {
-        known.known = sqlite3_column_int64(q.stmt, 0);
+        *out = sqlite3_column_int64(q.stmt, 0);
     }
-    enum store_status st = sql_end(&q);
+    return sql_end(&q);
+}
+
+enum store_status sqlite_find_known(struct store_session *s, const char *content_hash,
+                                    struct store_known *out)
+{
+    struct store_known known = {.known = 0};
+    enum store_status st = sqlite_find_answer(s, content_hash, &known.known);
     if (st == STORE_OK && known.known == 0) {
         struct sql j = sql_begin(s, "SELECT verdict, json FROM job JOIN document ON job = seq "
                                     "WHERE content_hash = ?1 "

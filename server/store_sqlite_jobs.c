@@ -184,21 +184,37 @@ enum store_status sqlite_claim(struct store_session *s, const char *owner, int64
     return STORE_OK;
 }
 
-/* Sequence number and state of a job whose lease the ticket still holds. */
-static enum store_status redeem(struct store_session *s, const struct store_ticket *t, int64_t *seq,
-                                enum job_state *state)
+enum store_status sqlite_redeem(struct store_session *s, const char *lease,
+                                const struct store_ticket *t, int64_t *seq, enum job_state *state)
 {
     enum store_status st = sqlite_find_job(s, t->id, seq, state);
     if (st != STORE_OK) {
         return st == STORE_NONE ? STORE_CONFLICT : st;
     }
-    struct sql q = sql_begin(s, "SELECT 1 FROM queue WHERE job = ?1 AND fence = ?2 "
-                                "AND lease_until <> 0");
+    struct sql q = sql_begin(s, lease);
     sql_int(&q, *seq);
+    sql_int(&q, t->unit);
     sql_int(&q, t->fence);
     const bool held = sql_row(&q);
     st = sql_end(&q);
     return st == STORE_OK && !held ? STORE_CONFLICT : st;
+}
+
+/* Of a whole job. */
+static enum store_status redeem(struct store_session *s, const struct store_ticket *t, int64_t *seq,
+                                enum job_state *state)
+{
+    return sqlite_redeem(s,
+                         "SELECT 1 FROM queue WHERE job = ?1 AND ?2 = 0 AND fence = ?3 "
+                         "AND lease_until <> 0",
+                         t, seq, state);
+}
+
+/* Of a job or a unit of a study. */
+static enum store_status redeem_any(struct store_session *s, const struct store_ticket *t,
+                                    int64_t *seq, enum job_state *state)
+{
+    return (t->unit > 0 ? sqlite_redeem_unit : redeem)(s, t, seq, state);
 }
 
 enum store_status sqlite_heartbeat(struct store_session *s, const struct store_ticket *t,
@@ -206,14 +222,15 @@ enum store_status sqlite_heartbeat(struct store_session *s, const struct store_t
 {
     int64_t seq = 0;
     enum job_state state;
-    if (t->unit > 0) {
-        return sqlite_heartbeat_unit(s, t, lease_until);
-    }
-    enum store_status st = redeem(s, t, &seq, &state);
+    enum store_status st = redeem_any(s, t, &seq, &state);
     if (st == STORE_OK) {
-        struct sql q = sql_begin(s, "UPDATE queue SET lease_until = ?1 WHERE job = ?2");
+        struct sql q = t->unit > 0 ? sql_begin(s, "UPDATE study_unit SET lease_until = ?1 "
+                                                  "WHERE study = ?2 AND unit = ?3")
+                                   : sql_begin(s, "UPDATE queue SET lease_until = ?1 "
+                                                  "WHERE job = ?2 AND ?3 = 0");
         sql_int(&q, lease_until);
         sql_int(&q, seq);
+        sql_int(&q, t->unit);
         st = sql_run(&q);
     }
     return st;
@@ -261,8 +278,7 @@ enum store_status sqlite_fail(struct store_session *s, const struct store_ticket
 {
     int64_t seq = 0;
     enum job_state state;
-    const enum store_status st =
-        t->unit > 0 ? sqlite_redeem_unit(s, t, &seq, &state) : redeem(s, t, &seq, &state);
+    const enum store_status st = redeem_any(s, t, &seq, &state);
     return st == STORE_OK ? fail_job(s, seq, state, code, detail, now) : st;
 }
 

@@ -156,35 +156,10 @@ enum store_status sqlite_claim_unit(struct store_session *s, const char *owner, 
 enum store_status sqlite_redeem_unit(struct store_session *s, const struct store_ticket *t,
                                      int64_t *seq, enum job_state *state)
 {
-    enum store_status st = sqlite_find_job(s, t->id, seq, state);
-    if (st != STORE_OK) {
-        return st == STORE_NONE ? STORE_CONFLICT : st;
-    }
-    struct sql q = sql_begin(s, "SELECT 1 FROM study_unit WHERE study = ?1 AND unit = ?2 "
-                                "AND fence = ?3 AND lease_until <> 0");
-    sql_int(&q, *seq);
-    sql_int(&q, t->unit);
-    sql_int(&q, t->fence);
-    const bool held = sql_row(&q);
-    st = sql_end(&q);
-    return st == STORE_OK && !held ? STORE_CONFLICT : st;
-}
-
-enum store_status sqlite_heartbeat_unit(struct store_session *s, const struct store_ticket *t,
-                                        int64_t lease_until)
-{
-    int64_t seq = 0;
-    enum job_state state;
-    enum store_status st = sqlite_redeem_unit(s, t, &seq, &state);
-    if (st == STORE_OK) {
-        struct sql q = sql_begin(s, "UPDATE study_unit SET lease_until = ?1 "
-                                    "WHERE study = ?2 AND unit = ?3");
-        sql_int(&q, lease_until);
-        sql_int(&q, seq);
-        sql_int(&q, t->unit);
-        st = sql_run(&q);
-    }
-    return st;
+    return sqlite_redeem(s,
+                         "SELECT 1 FROM study_unit WHERE study = ?1 AND unit = ?2 AND fence = ?3 "
+                         "AND lease_until <> 0",
+                         t, seq, state);
 }
 
 /* -- cells ------------------------------------------------------------------------------ */
@@ -209,13 +184,7 @@ static enum store_status insert_answer(struct store_session *s, const struct sto
     if (st == STORE_OK && sqlite3_changes(sqlite_session_of(s)->db) == 1) {
         *out = sqlite3_last_insert_rowid(sqlite_session_of(s)->db);
     } else if (st == STORE_OK) {
-        struct sql f = sql_begin(s, "SELECT id FROM cell_result WHERE content_hash = ?1 "
-                                    "AND state = 'done'");
-        sql_text(&f, c->content_hash);
-        if (sql_row(&f)) {
-            *out = sqlite3_column_int64(f.stmt, 0);
-        }
-        st = sql_end(&f);
+        st = sqlite_find_answer(s, c->content_hash, out);
     }
     return st;
 }
