@@ -3,6 +3,7 @@
 #include "server/clock.h"
 #include "server/id.h"
 #include "server/pack.h"
+#include "server/port.h"
 #include "server/series_read.h"
 
 #include <assert.h>
@@ -21,27 +22,6 @@ struct service_impl {
     atomic_bool stopping;
     atomic_bool disk_low;
 };
-
-static enum service_status service_status_of(enum store_status st)
-{
-    switch (st) {
-    case STORE_OK:
-        return SERVICE_OK;
-    case STORE_NONE:
-        return SERVICE_NOT_FOUND;
-    case STORE_NOT_READY:
-        return SERVICE_NOT_READY;
-    case STORE_FULL:
-        return SERVICE_DISK_FULL;
-    case STORE_CONFLICT:
-    case STORE_LOCKED:
-    case STORE_REFUSED:
-    case STORE_CORRUPT:
-    case STORE_ERROR:
-        break;
-    }
-    return SERVICE_ERROR;
-}
 
 /* -- writes ----------------------------------------------------------------------------- */
 
@@ -80,7 +60,7 @@ static void submit_done(struct write_request *r, enum store_status st)
     if (created > 0) {
         dispatch_ring(s->dispatch);
     }
-    q->done(q->arg, service_status_of(st), st == STORE_OK ? q->n : 0, q->result);
+    q->done(q->arg, port_status(st), st == STORE_OK ? q->n : 0, q->result);
     free(q);
 }
 
@@ -149,7 +129,7 @@ static void cancel_done(struct write_request *r, enum store_status st)
     if (st == STORE_OK && q->job.state == JOB_CANCELLED && q->job.finished_us == q->now) {
         dispatch_depth_add(d, -1); /* it was still queued: nobody else counts it off */
     }
-    q->done(q->arg, service_status_of(st), st == STORE_OK ? &q->job : NULL);
+    q->done(q->arg, port_status(st), st == STORE_OK ? &q->job : NULL);
     free(q);
 }
 
@@ -178,29 +158,6 @@ static void service_cancel(void *ctx, const char *id, service_cancel_done done, 
 
 /* -- reads ------------------------------------------------------------------------------ */
 
-static struct store_session *take(const struct service_impl *s)
-{
-    struct store_session *r = s->store->ops->reader_take(s->store);
-    if (r == NULL) {
-        LOG(s->log, LOG_LEVEL_ERROR, "read_failed", log_s("message", "no reader can be opened"));
-    }
-    return r;
-}
-
-/* Returns the reader and turns the status into the port's, logging what is nobody's fault. */
-static enum service_status give(const struct service_impl *s, struct store_session *r,
-                                enum store_status st)
-{
-    const enum service_status status = service_status_of(st);
-    if (status == SERVICE_ERROR) {
-        LOG(s->log, LOG_LEVEL_ERROR, "read_failed", log_i("status", st),
-            log_s("message",
-                  st == STORE_CORRUPT ? "stored data fail their check" : r->ops->message(r)));
-    }
-    s->store->ops->reader_give(s->store, r);
-    return status;
-}
-
 static void add_progress(const struct service_impl *s, struct job_record *job)
 {
     if (job->state == JOB_RUNNING || job->state == JOB_CANCELLING) {
@@ -211,11 +168,11 @@ static void add_progress(const struct service_impl *s, struct job_record *job)
 static enum service_status service_get(void *ctx, const char *id, struct job_record *out)
 {
     const struct service_impl *s = ctx;
-    struct store_session *r = take(s);
+    struct store_session *r = port_take(s->store, s->log);
     if (r == NULL) {
         return SERVICE_ERROR;
     }
-    const enum service_status st = give(s, r, r->ops->get(r, id, out));
+    const enum service_status st = port_give(s->store, s->log, r, r->ops->get(r, id, out));
     if (st == SERVICE_OK) {
         add_progress(s, out);
     }
@@ -226,11 +183,12 @@ static enum service_status service_list(void *ctx, const struct service_filter *
                                         struct job_record **out, int *n, bool *more)
 {
     const struct service_impl *s = ctx;
-    struct store_session *r = take(s);
+    struct store_session *r = port_take(s->store, s->log);
     if (r == NULL) {
         return SERVICE_ERROR;
     }
-    const enum service_status st = give(s, r, r->ops->list(r, filter, out, n, more));
+    const enum service_status st =
+        port_give(s->store, s->log, r, r->ops->list(r, filter, out, n, more));
     for (int i = 0; st == SERVICE_OK && i < *n; i++) {
         add_progress(s, &(*out)[i]);
     }
@@ -240,16 +198,18 @@ static enum service_status service_list(void *ctx, const struct service_filter *
 static enum service_status service_get_case(void *ctx, const char *id, char **json)
 {
     const struct service_impl *s = ctx;
-    struct store_session *r = take(s);
-    return r == NULL ? SERVICE_ERROR : give(s, r, r->ops->get_case(r, id, json));
+    struct store_session *r = port_take(s->store, s->log);
+    return r == NULL ? SERVICE_ERROR
+                     : port_give(s->store, s->log, r, r->ops->get_case(r, id, json));
 }
 
 static enum service_status service_get_document(void *ctx, const char *id, const char *document,
                                                 char **json)
 {
     const struct service_impl *s = ctx;
-    struct store_session *r = take(s);
-    return r == NULL ? SERVICE_ERROR : give(s, r, r->ops->get_document(r, id, document, json));
+    struct store_session *r = port_take(s->store, s->log);
+    return r == NULL ? SERVICE_ERROR
+                     : port_give(s->store, s->log, r, r->ops->get_document(r, id, document, json));
 }
 
 /* -- studies ---------------------------------------------------------------------------- */
@@ -257,8 +217,9 @@ static enum service_status service_get_document(void *ctx, const char *id, const
 static enum service_status service_get_study(void *ctx, const char *id, struct service_study *out)
 {
     const struct service_impl *s = ctx;
-    struct store_session *r = take(s);
-    return r == NULL ? SERVICE_ERROR : give(s, r, r->ops->get_study(r, id, out));
+    struct store_session *r = port_take(s->store, s->log);
+    return r == NULL ? SERVICE_ERROR
+                     : port_give(s->store, s->log, r, r->ops->get_study(r, id, out));
 }
 
 /* Cells with their summaries unpacked; false when one is damaged, or memory ran out. */
@@ -279,14 +240,14 @@ static enum service_status service_get_cells(void *ctx, const char *id, int from
                                              bool summaries, struct service_cell **out, int *n)
 {
     const struct service_impl *s = ctx;
-    struct store_session *r = take(s);
+    struct store_session *r = port_take(s->store, s->log);
     if (r == NULL) {
         return SERVICE_ERROR;
     }
     struct store_cell_row *row = NULL;
     int count = 0;
-    const enum service_status st =
-        give(s, r, r->ops->get_cells(r, id, from, limit, summaries, &row, &count));
+    const enum service_status st = port_give(
+        s->store, s->log, r, r->ops->get_cells(r, id, from, limit, summaries, &row, &count));
     if (st != SERVICE_OK) {
         return st;
     }
@@ -318,19 +279,20 @@ static enum service_status service_get_series(void *ctx, const char *id, int n_c
     const struct service_impl *s = ctx;
     const struct series_ask ask = {id, n_channel, channel, from_s, to_s};
     *bad_channel = -1;
-    struct store_session *r = take(s);
-    return r == NULL ? SERVICE_ERROR : give(s, r, series_read(r, &ask, out, bad_channel));
+    struct store_session *r = port_take(s->store, s->log);
+    return r == NULL ? SERVICE_ERROR
+                     : port_give(s->store, s->log, r, series_read(r, &ask, out, bad_channel));
 }
 
 static enum service_status service_get_columns(void *ctx, const char *id, char (**out)[64], int *n)
 {
     const struct service_impl *s = ctx;
-    struct store_session *r = take(s);
+    struct store_session *r = port_take(s->store, s->log);
     if (r == NULL) {
         return SERVICE_ERROR;
     }
     struct series_data data = {.n = 0};
-    const enum service_status st = give(s, r, r->ops->get_series(r, id, &data));
+    const enum service_status st = port_give(s->store, s->log, r, r->ops->get_series(r, id, &data));
     if (st != SERVICE_OK) {
         return st;
     }
@@ -390,8 +352,8 @@ struct service_impl *service_impl_create(struct store *st, struct writer *writer
     s->log = log;
     s->queue_limit = queue_limit;
     char newest[JOB_ID_SIZE] = "";
-    struct store_session *r = take(s);
-    if (r == NULL || give(s, r, r->ops->newest_id(r, newest)) != SERVICE_OK) {
+    struct store_session *r = port_take(s->store, s->log);
+    if (r == NULL || port_give(s->store, s->log, r, r->ops->newest_id(r, newest)) != SERVICE_OK) {
         free(s);
         return NULL;
     }

@@ -1,6 +1,7 @@
 #include "server/shelf_impl.h"
 
 #include "server/clock.h"
+#include "server/port.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,23 +13,6 @@ struct shelf_impl {
     struct writer *writer;
     const struct log *log;
 };
-
-static enum service_status status_of(enum store_status st)
-{
-    static const struct {
-        enum store_status store;
-        enum service_status service;
-    } table[] = {{STORE_OK, SERVICE_OK},
-                 {STORE_NONE, SERVICE_NOT_FOUND},
-                 {STORE_NOT_READY, SERVICE_NOT_READY},
-                 {STORE_FULL, SERVICE_DISK_FULL}};
-    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
-        if (table[i].store == st) {
-            return table[i].service;
-        }
-    }
-    return SERVICE_ERROR;
-}
 
 /* -- writes ----------------------------------------------------------------------------- */
 
@@ -50,7 +34,7 @@ static enum store_status put_apply(struct write_request *r, struct store_session
 static void put_done(struct write_request *r, enum store_status st)
 {
     struct put_request *q = (struct put_request *)r;
-    q->done(q->arg, status_of(st), q->version, q->reused);
+    q->done(q->arg, port_status(st), q->version, q->reused);
     free(q);
 }
 
@@ -88,7 +72,7 @@ static enum store_status drop_apply(struct write_request *r, struct store_sessio
 static void drop_done(struct write_request *r, enum store_status st)
 {
     struct drop_request *q = (struct drop_request *)r;
-    q->done(q->arg, status_of(st));
+    q->done(q->arg, port_status(st));
     free(q);
 }
 
@@ -115,41 +99,23 @@ static void shelf_drop(void *ctx, enum shelf_kind kind, const char *name, int ve
 
 /* -- reads ------------------------------------------------------------------------------ */
 
-static struct store_session *take(const struct shelf_impl *s)
-{
-    struct store_session *r = s->store->ops->reader_take(s->store);
-    if (r == NULL) {
-        LOG(s->log, LOG_LEVEL_ERROR, "read_failed", log_s("message", "no reader can be opened"));
-    }
-    return r;
-}
-
-static enum service_status give(const struct shelf_impl *s, struct store_session *r,
-                                enum store_status st)
-{
-    const enum service_status status = status_of(st);
-    if (status == SERVICE_ERROR) {
-        LOG(s->log, LOG_LEVEL_ERROR, "read_failed", log_i("status", st),
-            log_s("message", r->ops->message(r)));
-    }
-    s->store->ops->reader_give(s->store, r);
-    return status;
-}
-
 static enum service_status shelf_list(void *ctx, enum shelf_kind kind, struct shelf_entry **out,
                                       int *n)
 {
     const struct shelf_impl *s = ctx;
-    struct store_session *r = take(s);
-    return r == NULL ? SERVICE_ERROR : give(s, r, r->ops->shelf_list(r, kind, out, n));
+    struct store_session *r = port_take(s->store, s->log);
+    return r == NULL ? SERVICE_ERROR
+                     : port_give(s->store, s->log, r, r->ops->shelf_list(r, kind, out, n));
 }
 
 static enum service_status shelf_get(void *ctx, enum shelf_kind kind, const char *name, int version,
                                      struct shelf_entry *out)
 {
     const struct shelf_impl *s = ctx;
-    struct store_session *r = take(s);
-    return r == NULL ? SERVICE_ERROR : give(s, r, r->ops->shelf_get(r, kind, name, version, out));
+    struct store_session *r = port_take(s->store, s->log);
+    return r == NULL
+               ? SERVICE_ERROR
+               : port_give(s->store, s->log, r, r->ops->shelf_get(r, kind, name, version, out));
 }
 
 struct shelf_impl *shelf_impl_create(struct store *st, struct writer *writer, const struct log *log)
