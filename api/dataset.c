@@ -1,5 +1,6 @@
 #include "api/dataset.h"
 
+#include "api/pack.h"
 #include "api/shelf.h"
 #include "core/num.h"
 
@@ -121,15 +122,7 @@ bool dataset_is_built_in(const char *name)
 
 void *dataset_compress(const char *text, size_t size, size_t *packed_size)
 {
-    const size_t bound = ZSTD_compressBound(size);
-    void *packed = malloc(bound);
-    const size_t n = packed != NULL ? ZSTD_compress(packed, bound, text, size, LEVEL) : 0;
-    if (packed == NULL || ZSTD_isError(n)) {
-        free(packed);
-        return NULL;
-    }
-    *packed_size = n;
-    return packed;
+    return pack_text(text, size, LEVEL, packed_size);
 }
 
 char *dataset_expand(const void *packed, size_t size, size_t *text_size)
@@ -138,12 +131,9 @@ char *dataset_expand(const void *packed, size_t size, size_t *text_size)
     if (n > EXPANDED_MAX) { /* unknown and damaged are beyond it, too */
         return NULL;
     }
-    char *text = malloc((size_t)n + 1);
-    if (text == NULL || ZSTD_decompress(text, (size_t)n, packed, size) != n) {
-        free(text);
-        return NULL;
+    char *text = unpack_text(packed, size, (size_t)n);
+    if (text != NULL) {
+        *text_size = (size_t)n;
     }
-    text[n] = '\0';
-    *text_size = (size_t)n;
     return text;
 }

@@ -1,8 +1,8 @@
 #include "server/service_impl.h"
 
+#include "api/pack.h"
 #include "server/clock.h"
 #include "server/id.h"
-#include "server/pack.h"
 #include "server/port.h"
 #include "server/series_read.h"
 

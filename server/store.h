@@ -54,7 +54,7 @@ struct store_cell {
     enum study_cell_state state;
     const char *content_hash, *verdict, *error_code, *error_detail;
     double cpu_s;
-    const void *summary; /* packed (server/pack.h); none when failed */
+    const void *summary; /* packed (api/pack.h); none when failed */
     size_t summary_size, summary_packed;
 };
 

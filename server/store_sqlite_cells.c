@@ -1,5 +1,5 @@
 /* Reads of the SQLite back end: studies and their cells. */
-#include "server/pack.h"
+#include "api/pack.h"
 #include "server/store_sqlite.h"
 
 #include <stdlib.h>

@@ -1,15 +1,15 @@
 #include "server/study_work.h"
 
+#include "api/pack.h"
 #include "api/study_run.h"
 #include "server/clock.h"
 #include "server/job.h"
-#include "server/pack.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { BATCH_MAX = 256, PUBLISH_US = 500000 };
+enum { BATCH_MAX = 256, PUBLISH_US = 500000, PACK_LEVEL = 1 };
 
 /* A cell on its way to the store; `cell` points into the rest. */
 struct kept_cell {
@@ -161,7 +161,7 @@ static bool fill(struct kept_cell *k)
     c->cpu_s = r->cpu_s;
     if (r->summary != NULL) {
         c->summary_size = strlen(r->summary);
-        k->packed = pack_text(r->summary, c->summary_size, &c->summary_packed);
+        k->packed = pack_text(r->summary, c->summary_size, PACK_LEVEL, &c->summary_packed);
         c->summary = k->packed;
     }
     return r->summary == NULL || k->packed != NULL;

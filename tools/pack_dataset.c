@@ -4,6 +4,7 @@
  * text. Run by the build for the dataset that is compiled in. */
 #include "api/dataset.h"
 #include "api/hash.h"
+#include "api/pack.h"
 #include "cli/file.h"
 #include "cli/records.h"
 #include "core/status.h"
@@ -11,19 +12,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <zstd.h>
 
 enum { LEVEL = 12 };
 
-static bool pack(const char *text, size_t size, const char *file)
+static bool write_packed(const char *text, size_t size, const char *file)
 {
-    const size_t bound = ZSTD_compressBound(size);
-    char *packed = malloc(bound);
-    bool done = packed != NULL;
-    if (done) {
-        const size_t n = ZSTD_compress(packed, bound, text, size, LEVEL);
-        done = !ZSTD_isError(n) && file_write(file, packed, n);
-    }
+    size_t packed_size = 0;
+    void *packed = pack_text(text, size, LEVEL, &packed_size);
+    const bool done = packed != NULL && file_write(file, packed, packed_size);
     free(packed);
     return done;
 }
@@ -53,7 +49,7 @@ static bool write_all(const struct records *records, char **file)
     bool done = text != NULL;
     if (done) {
         hash_text(text, size, e.hash);
-        done = pack(text, size, file[0]) && write_head(&e, file[1]) &&
+        done = write_packed(text, size, file[0]) && write_head(&e, file[1]) &&
                file_write(file[2], e.hash, strlen(e.hash));
     }
     free(text);

@@ -6,8 +6,8 @@
 
 #include <cmocka.h>
 
+#include "api/pack.h"
 #include "api/study.h"
-#include "server/pack.h"
 #include "tests/server/store_support.h"
 
 /* Two structures of five cells in units of three and two: places [0,3) [3,5) [5,8) [8,10). */
@@ -307,7 +307,7 @@ static void test_pack(void **state)
     static const char text[] = "{\"a\":1,\"b\":[1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1]}";
     size_t size = 0;
     (void)state;
-    unsigned char *packed = pack_text(text, sizeof text - 1, &size);
+    unsigned char *packed = pack_text(text, sizeof text - 1, 1, &size);
     assert_non_null(packed);
     assert_true(size < sizeof text - 1);
     char *back = unpack_text(packed, size, sizeof text - 1);

@@ -7,8 +7,8 @@
 
 #include <cmocka.h>
 
+#include "api/pack.h"
 #include "api/study.h"
-#include "server/pack.h"
 #include "server/study_work.h"
 #include "tests/server/cases.h"
 #include "tests/server/store_support.h"

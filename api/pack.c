@@ -1,18 +1,16 @@
-#include "server/pack.h"
+#include "api/pack.h"
 
 #include <stdlib.h>
 #include <zstd.h>
 
-enum { LEVEL = 1 };
-
-void *pack_text(const char *text, size_t size, size_t *packed_size)
+void *pack_text(const char *text, size_t size, int level, size_t *packed_size)
 {
     const size_t bound = ZSTD_compressBound(size);
     void *packed = malloc(bound);
     if (packed == NULL) {
         return NULL;
     }
-    const size_t n = ZSTD_compress(packed, bound, text, size, LEVEL);
+    const size_t n = ZSTD_compress(packed, bound, text, size, level);
     if (ZSTD_isError(n)) {
         free(packed);
         return NULL;
