@@ -47,20 +47,27 @@ static void enter(void *arg, const struct service_cell *c, cJSON **summary)
     }
 }
 
+/* A parameter with a value that means nothing here. */
+static void refuse_query(struct api_response *res, const char *parameter, const char *expected,
+                         const char *got, const char *detail)
+{
+    struct failure_list *errors = calloc(1, sizeof *errors);
+    if (errors != NULL) {
+        failure_set(failure_add(errors), ST_INVALID, parameter, "unknown_value", expected, got,
+                    "%s", detail);
+    }
+    problem_response(res, PROBLEM_BAD_QUERY, detail, errors, NULL);
+    free(errors);
+}
+
 static void refuse_value(struct api_response *res, const struct map_read *read)
 {
     char detail[200];
-    struct failure_list *errors = calloc(1, sizeof *errors);
     (void)snprintf(detail, sizeof detail,
                    read->composite ? "\"%.80s\" is more than one value"
                                    : "the summary of a cell has no \"%.80s\"",
                    read->map->value_name);
-    if (errors != NULL) {
-        failure_set(failure_add(errors), ST_INVALID, "?value", "unknown_value", read->names,
-                    read->map->value_name, "%s", detail);
-    }
-    problem_response(res, PROBLEM_BAD_QUERY, detail, errors, NULL);
-    free(errors);
+    refuse_query(res, "?value", read->names, read->map->value_name, detail);
 }
 
 static void write_json(struct json_out *out, const struct job_record *job,
@@ -107,13 +114,7 @@ static void refuse_overlay(struct api_response *res, const char *id)
     static const char detail[] =
         "the drawing needs a study of type \"boundary\" over one of its axes, of the field on "
         "the other one";
-    struct failure_list *errors = calloc(1, sizeof *errors);
-    if (errors != NULL) {
-        failure_set(failure_add(errors), ST_INVALID, "?boundary", "unknown_value",
-                    "the id of such a study", id, "%s", detail);
-    }
-    problem_response(res, PROBLEM_BAD_QUERY, detail, errors, NULL);
-    free(errors);
+    refuse_query(res, "?boundary", "the id of such a study", id, detail);
 }
 
 /* Curves in the axes of the drawing; false when the study is not about these. */
@@ -235,13 +236,8 @@ static enum map_format format_of(const struct api_call *call, struct api_respons
     const enum map_format format =
         name != NULL ? map_format_of(name) : map_format_accepted(call->req->accept);
     if (format == MAP_FORMATS) {
-        struct failure_list *errors = calloc(1, sizeof *errors);
-        if (errors != NULL) {
-            failure_set(failure_add(errors), ST_INVALID, "?format", "unknown_value",
-                        "json, csv, npy, hdf5 or svg", name, "there is no such form of a map");
-        }
-        problem_response(res, PROBLEM_BAD_QUERY, "there is no such form of a map", errors, NULL);
-        free(errors);
+        refuse_query(res, "?format", "json, csv, npy, hdf5 or svg", name,
+                     "there is no such form of a map");
     }
     return format;
 }
