@@ -79,23 +79,21 @@ static void begin_document(struct json_out *out, const struct gathered *g)
     json_key_integer(out, "pending", p->n_cell - p->done - p->failed);
 }
 
-static void write_item(struct json_out *out, const cJSON *item)
+/* A part of a summary as it is; null where there is none. */
+static void write_part(struct json_out *out, const char *key, const cJSON *item)
 {
-    if (cJSON_IsNumber(item)) {
-        json_number(out, item->valuedouble);
-    } else if (cJSON_IsBool(item)) {
-        json_boolean(out, cJSON_IsTrue(item));
+    json_key(out, key);
+    if (item != NULL) {
+        json_value(out, item);
     } else {
-        json_string(out, cJSON_IsString(item) ? item->valuestring : NULL);
+        json_null(out);
     }
 }
 
-/* Scalar members of a summary as they are; null where there is no summary. */
 static void copy_members(struct json_out *out, const cJSON *from, const char *const *keys)
 {
     for (; *keys != NULL; keys++) {
-        json_key(out, *keys);
-        write_item(out, cJSON_GetObjectItemCaseSensitive(from, *keys));
+        write_part(out, *keys, cJSON_GetObjectItemCaseSensitive(from, *keys));
     }
 }
 
@@ -176,27 +174,14 @@ static bool is_better(const cJSON *a, const cJSON *b, bool large)
     return fits && large ? p > q : p < q;
 }
 
-static bool write_raw(struct json_out *out, const char *key, const cJSON *item)
-{
-    char *text = item != NULL ? cJSON_PrintUnformatted(item) : NULL;
-    json_key(out, key);
-    json_raw(out, text);
-    cJSON_free(text);
-    return item == NULL || text != NULL;
-}
-
 static void write_start(struct json_out *out, const struct gathered *g, int cell)
 {
     static const char *const keys[] = {"outcome", "objective", "evaluations", "failed_evaluations",
-                                       "runs",    NULL};
+                                       "runs",    "best",      "history",     NULL};
     json_object_begin(out);
     study_point(out, g->study, cell);
     json_key_string(out, "state", study_cell_state_name((enum study_cell_state)g->state[cell]));
     copy_members(out, g->summary[cell], keys);
-    const cJSON *summary = g->summary[cell];
-    const bool ok = write_raw(out, "best", cJSON_GetObjectItemCaseSensitive(summary, "best")) &&
-                    write_raw(out, "history", cJSON_GetObjectItemCaseSensitive(summary, "history"));
-    out->failed = out->failed || !ok;
     json_object_end(out);
 }
 
@@ -212,8 +197,7 @@ static void write_optimum(struct json_out *out, const struct gathered *g)
     }
     json_key_string(out, large ? "maximise" : "minimise", large ? f->maximise : f->minimise);
     json_key_string(out, "outcome", best != NULL ? text_in(best, "outcome") : NULL);
-    const bool ok = write_raw(out, "best", cJSON_GetObjectItemCaseSensitive(best, "best"));
-    out->failed = out->failed || !ok;
+    write_part(out, "best", cJSON_GetObjectItemCaseSensitive(best, "best"));
     json_key_integer(out, "runs", runs_of(g));
     json_key(out, "starts");
     json_array_begin(out);
