@@ -44,3 +44,29 @@ struct api_case *parse_good(struct fixture *f, const char *json)
     }
     return c;
 }
+
+void assert_stable(struct fixture *f, const char *json)
+{
+    struct api_case *first = parse_good(f, json);
+    struct api_case *second = parse_good(f, api_case_canonical(first));
+    assert_string_equal(api_case_canonical(first), api_case_canonical(second));
+    assert_string_equal(api_case_hash(first), api_case_hash(second));
+    assert_int_equal(strlen(api_case_hash(first)), 64);
+    api_case_destroy(first);
+    api_case_destroy(second);
+}
+
+void assert_all_refused(struct fixture *f, size_t n, const struct bad_case *bad)
+{
+    for (size_t i = 0; i < n; i++) {
+        const struct bad_case *b = &bad[i];
+        assert_null(parse(f, b->json));
+        const struct failure *p = &f->problems->item[0];
+        if (f->problems->total != 1 || strcmp(p->pointer, b->pointer) != 0 ||
+            strcmp(p->code, b->code) != 0) {
+            fail_msg("case %zu: expected one problem %s at \"%s\", found %d: %s at \"%s\" (%s)", i,
+                     b->code, b->pointer, f->problems->total, p->code, p->pointer, p->detail);
+        }
+        assert_true(p->detail[0] != '\0');
+    }
+}

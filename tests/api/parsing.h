@@ -21,4 +21,13 @@ struct api_case *parse(struct fixture *f, const char *json);
 /* The same for a document that must be right. */
 struct api_case *parse_good(struct fixture *f, const char *json);
 
+/* Canonical text parsed again gives the same text and the same identity. */
+void assert_stable(struct fixture *f, const char *json);
+
+/* A document that has exactly one problem, and where. */
+struct bad_case {
+    const char *json, *pointer, *code;
+};
+void assert_all_refused(struct fixture *f, size_t n, const struct bad_case *bad);
+
 #endif
