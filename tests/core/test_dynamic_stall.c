@@ -1,6 +1,7 @@
 /* Dynamic stall on one station and several; its loops through stall are in tests/verify. */
 #include "core/aero/dynamic_stall.h"
 #include "core/num.h"
+#include "core/random.h"
 #include "tests/support/fixture.h"
 #include "tests/support/unit.h"
 
@@ -344,8 +345,8 @@ static void any_motion_is_bounded(void **state)
         for (int k = 0; k < 2000; k++) {
             double cl[STATIONS] = {0}, cd[STATIONS] = {0}, cm[STATIONS] = {0};
             for (int i = 0; i < STATIONS; i++) {
-                alpha[i] = 2.0 * fixture_uniform(&seed) - 1.0;
-                plunge[i] = 3.0 * fixture_uniform(&seed) - 1.0;
+                alpha[i] = 2.0 * random_uniform(&seed) - 1.0;
+                plunge[i] = 3.0 * random_uniform(&seed) - 1.0;
             }
             dynamic_stall_step(&ds, alpha, plunge, x);
             dynamic_stall_coefficients(&ds, alpha, x, cl, cd, cm);

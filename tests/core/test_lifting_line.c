@@ -3,6 +3,7 @@
 #include "core/aero/lifting_line_kernel.h"
 #include "core/la.h"
 #include "core/num.h"
+#include "core/random.h"
 #include "tests/support/fixture.h"
 #include "tests/support/unit.h"
 
@@ -73,8 +74,8 @@ static void the_report_is_true(void **state)
     start(&def, 1e-10, 50, &warm);
     fill(0.0, plunge);
     for (int k = 0; k < 40; k++) {
-        const double root = 0.7 * fixture_uniform(&seed) - 0.35;
-        const double tip = 0.7 * fixture_uniform(&seed) - 0.35;
+        const double root = 0.7 * random_uniform(&seed) - 0.35;
+        const double tip = 0.7 * random_uniform(&seed) - 0.35;
         for (int i = 0; i < N; i++) {
             alpha[i] = root + (tip - root) * (i + 0.5) / N;
         }

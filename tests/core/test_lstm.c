@@ -2,6 +2,7 @@
 #include "core/network/lstm_records.h"
 #include "core/network/train_lstm.h"
 #include "core/num.h"
+#include "core/random.h"
 #include "tests/support/fixture.h"
 #include "tests/support/unit.h"
 
@@ -130,8 +131,8 @@ static struct flow_record lagged(int number)
     (void)snprintf(r.name, sizeof r.name, "r%d", number);
     r.value = calloc(SAMPLES * FLOW_ROWS, sizeof *r.value);
     for (int j = 0; j < 3; j++) {
-        f[j] = 0.03 * pow(10.0, fixture_uniform(&seed));
-        phase[j] = 2.0 * NUM_PI * fixture_uniform(&seed);
+        f[j] = 0.03 * pow(10.0, random_uniform(&seed));
+        phase[j] = 2.0 * NUM_PI * random_uniform(&seed);
     }
     for (int i = 0; i < SAMPLES; i++) {
         double *v = r.value + i;

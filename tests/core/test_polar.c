@@ -1,5 +1,6 @@
 #include "core/aero/polar.h"
 #include "core/num.h"
+#include "core/random.h"
 #include "tests/support/fixture.h"
 #include "tests/support/unit.h"
 
@@ -170,8 +171,8 @@ static void pieces_are_the_curve(void **state)
     struct polar *p = create(&t.def);
     uint64_t seed = 4;
     for (int i = 0; i < 400; i++) {
-        const double alpha = 1.2 * fixture_uniform(&seed) - 0.55;
-        const double plunge = 5.0 * fixture_uniform(&seed) - 2.0;
+        const double alpha = 1.2 * random_uniform(&seed) - 0.55;
+        const double plunge = 5.0 * random_uniform(&seed) - 2.0;
         const struct polar_piece c = polar_piece_at(p, alpha, plunge);
         assert_true(c.from <= alpha && alpha < c.to);
         const double angle[] = {alpha, fmax(c.from, -1.0), fmin(c.to, 1.0) - 1e-12};

@@ -1,7 +1,7 @@
 /* Means over the end of a march whose length is not known beforehand. */
 #include "core/coupling/span_mean.h"
 #include "core/num.h"
-#include "tests/support/fixture.h"
+#include "core/random.h"
 #include "tests/support/unit.h"
 
 enum { N = 3, SAMPLES_MAX = 700 };
@@ -68,8 +68,8 @@ static void marches(void **state)
     check_march(300, 5000);
     uint64_t seed = 5;
     for (int k = 0; k < 10; k++) {
-        const int planned = 2 + (int)(fixture_uniform(&seed) * (SAMPLES_MAX - 2));
-        check_march(planned, 1 + (int)(fixture_uniform(&seed) * planned));
+        const int planned = 2 + (int)(random_uniform(&seed) * (SAMPLES_MAX - 2));
+        check_march(planned, 1 + (int)(random_uniform(&seed) * planned));
     }
 }
 

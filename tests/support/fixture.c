@@ -1,6 +1,7 @@
 #include "tests/support/fixture.h"
 
 #include "core/num.h"
+#include "core/random.h"
 
 #include <assert.h>
 #include <stdio.h>
@@ -132,7 +133,7 @@ struct polar_def fixture_linear_polar(double lift_slope, double moment_slope, do
 static void fill_random(int n, double size, uint64_t *state, double *x)
 {
     for (int i = 0; i < n; i++) {
-        x[i] = size * (2.0 * fixture_uniform(state) - 1.0);
+        x[i] = size * (2.0 * random_uniform(state) - 1.0);
     }
 }
 
@@ -166,18 +167,10 @@ struct network_def fixture_network(int hidden, double size, uint64_t seed)
     return d;
 }
 
-double fixture_uniform(uint64_t *state)
-{
-    uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
 double fixture_normal(uint64_t *state)
 {
     /* Box-Muller; 1 - u is never zero. */
-    const double u = 1.0 - fixture_uniform(state), v = fixture_uniform(state);
+    const double u = 1.0 - random_uniform(state), v = random_uniform(state);
     return sqrt(-2.0 * log(u)) * cos(2.0 * NUM_PI * v);
 }
 

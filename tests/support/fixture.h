@@ -33,8 +33,7 @@ struct polar_def fixture_linear_polar(double lift_slope, double moment_slope, do
  * wide. */
 struct network_def fixture_network(int hidden, double size, uint64_t seed);
 
-/* Uniform in [0, 1) and standard normal numbers of a small generator (splitmix64). */
-double fixture_uniform(uint64_t *state);
+/* Standard normal numbers from those of core/random.h. */
 double fixture_normal(uint64_t *state);
 
 /* y (n) = a (n x n, column-major) x (n). */

@@ -2,6 +2,7 @@
  * wall, spanwise distribution, independence of the start. */
 #include "core/aero/lifting_line.h"
 #include "core/num.h"
+#include "core/random.h"
 #include "tests/support/fixture.h"
 #include "tests/verify/check.h"
 
@@ -230,7 +231,7 @@ static void independence(struct check_list *list)
     for (int s = 0; s < STATES; s++) {
         for (int i = 0; i < N; i++) {
             alpha[i] = 0.05 + 0.01 * i;
-            other[i] = 0.6 * fixture_uniform(&seed) - 0.3;
+            other[i] = 0.6 * random_uniform(&seed) - 0.3;
         }
         (void)lifting_line_solve(&ll, polar, other, plunge, &warm);
     }
