@@ -24,21 +24,13 @@ void driven_section_model(double chord, double density, const struct polar_def *
     m->def.solver.modes = FREEDOMS;
     m->def.solver.time_step = time_step;
     m->dynamic_pressure = 0.5 * density * speed * speed;
-    m->omega2 = calloc(3 * FREEDOMS + 1 + 3 * FREEDOMS, sizeof *m->omega2);
-    m->tip = calloc(FREEDOMS, sizeof *m->tip);
     m->modes = (struct modes){.n_mode = FREEDOMS, .omega = calloc(FREEDOMS, sizeof(double))};
-    if (m->omega2 == NULL || m->tip == NULL || m->modes.omega == NULL ||
+    if (model_allocate(m) != ST_OK || m->modes.omega == NULL ||
         polar_create(polar, &m->polar) != ST_OK ||
         (dynamic == DYNAMIC_ATTACHED &&
          attached_init(1, &chord, speed, time_step, &m->attached) != ST_OK)) {
         abort();
     }
-    m->damping = m->omega2 + FREEDOMS;
-    m->gravity = m->damping + FREEDOMS;
-    m->chord = m->gravity + FREEDOMS;
-    m->station_u = m->chord + 1;
-    m->station_v = m->station_u + FREEDOMS;
-    m->station_theta = m->station_v + FREEDOMS;
     m->chord[0] = chord;
     for (int j = 0; j < FREEDOMS; j++) {
         const double v = j == 0 ? 1.0 : 0.0, theta = j == 1 ? 1.0 : 0.0;
