@@ -107,13 +107,10 @@ bool train_note(const struct train_problem *problem, const struct train_def *def
     return ended;
 }
 
-/* Rows of the net's inputs and outputs out of the samples, scaled: x and t in one block. */
-static double *scaled(const struct sample_set *s, const struct network_def *net)
+/* Rows of the net's inputs and outputs out of the samples, scaled: x, then t behind it, which is
+ * returned. */
+static double *scale(const struct sample_set *s, const struct network_def *net, double *x)
 {
-    double *x = malloc((size_t)s->n * (size_t)(net->n_in + net->n_out) * sizeof *x);
-    if (x == NULL) {
-        return NULL;
-    }
     double *t = x + (ptrdiff_t)s->n * net->n_in;
     for (int k = 0; k < s->n; k++) {
         for (int i = 0; i < net->n_in; i++) {
@@ -125,7 +122,35 @@ static double *scaled(const struct sample_set *s, const struct network_def *net)
             t[num_at(o, k, net->n_out)] = (v - net->out_offset[o]) / net->out_scale[o];
         }
     }
-    return x;
+    return t;
+}
+
+enum status train_problem_init(const struct dataset *data, const struct network_def *net,
+                               struct train_problem *p)
+{
+    const size_t rows = (size_t)(net->n_in + net->n_out);
+    const size_t n_trained = (size_t)data->trained.n, n_held = (size_t)data->held.n;
+    double *trained = malloc((n_trained + n_held) * rows * sizeof *trained);
+    if (trained == NULL) {
+        return ST_NO_MEMORY;
+    }
+    double *held = trained + n_trained * rows;
+    *p = (struct train_problem){
+        .shape = {.n_in = net->n_in, .n_hidden = net->n_hidden, .n_out = net->n_out},
+        .n_trained = data->trained.n,
+        .n_held = data->held.n,
+        .trained_x = trained,
+        .trained_t = scale(&data->trained, net, trained),
+        .held_x = held,
+        .held_t = scale(&data->held, net, held),
+        .block = trained};
+    return ST_OK;
+}
+
+void train_problem_done(struct train_problem *p)
+{
+    free(p->block);
+    *p = (struct train_problem){.n_trained = 0};
 }
 
 /* The vector of parameters into the arrays of the network. */
@@ -181,20 +206,11 @@ enum status train_network(const struct dataset *data, const struct train_def *de
     if (problems->total > before) {
         return ST_INVALID;
     }
-    double *trained = scaled(&data->trained, net), *held = scaled(&data->held, net);
-    enum status st = ST_NO_MEMORY;
-    if (trained != NULL && held != NULL) {
-        const struct train_problem problem = {
-            .shape = {.n_in = net->n_in, .n_hidden = net->n_hidden, .n_out = net->n_out},
-            .n_trained = data->trained.n,
-            .n_held = data->held.n,
-            .trained_x = trained,
-            .trained_t = trained + (ptrdiff_t)data->trained.n * net->n_in,
-            .held_x = held,
-            .held_t = held + (ptrdiff_t)data->held.n * net->n_in};
+    struct train_problem problem;
+    enum status st = train_problem_init(data, net, &problem);
+    if (st == ST_OK) {
         st = optimise(&problem, def, control, net, curve);
+        train_problem_done(&problem);
     }
-    free(trained);
-    free(held);
     return st;
 }

@@ -46,12 +46,19 @@ void train_curve_done(struct train_curve *c);
  * the patience has run out. */
 bool train_curve_add(struct train_curve *c, int patience, double trained, double held);
 
-/* What an optimiser works on: scaled samples, x (n_in x n) and t (n_out x n), borrowed. */
+/* What an optimiser works on: scaled samples, x (n_in x n) and t (n_out x n). */
 struct train_problem {
     struct perceptron shape;
     int n_trained, n_held;
     const double *trained_x, *trained_t, *held_x, *held_t;
+    double *block; /* holds these when train_problem_init has made them, owned */
 };
+/* From a dataset and a network whose inputs, outputs, n_hidden and scaling are set. ST_NO_MEMORY.
+ */
+MUST_CHECK enum status train_problem_init(const struct dataset *data, const struct network_def *net,
+                                          struct train_problem *p);
+/* Accepts a zeroed struct. */
+void train_problem_done(struct train_problem *p);
 
 /* Trains a network whose inputs, outputs and n_hidden are set; fills scaling, hull and weights,
  * which the caller frees with network_def_done. ST_INVALID with *problems filled where an input is

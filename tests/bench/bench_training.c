@@ -10,18 +10,12 @@
 #include "cli/report.h"
 #include "cli/source.h"
 #include "core/network/train_lm.h"
-#include "core/num.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 enum { IN = 4, OUT = 2, HIDDEN = 50 };
-
-struct part {
-    int n;
-    double *x, *t; /* scaled */
-};
 
 static double seconds(void)
 {
@@ -30,67 +24,41 @@ static double seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static bool part_init(const struct sample_set *s, const struct network_def *net, struct part *out)
-{
-    *out = (struct part){.n = s->n,
-                         .x = malloc((size_t)s->n * IN * sizeof(double)),
-                         .t = malloc((size_t)s->n * OUT * sizeof(double))};
-    for (int k = 0; k < s->n && out->x != NULL && out->t != NULL; k++) {
-        for (int i = 0; i < IN; i++) {
-            const double v = s->x[num_at((int)net->input[i], k, NET_IN_COUNT)];
-            out->x[num_at(i, k, IN)] = (v - net->in_offset[i]) / net->in_scale[i];
-        }
-        for (int o = 0; o < OUT; o++) {
-            const double v = s->y[num_at((int)net->output[o], k, NET_OUT_COUNT)];
-            out->t[num_at(o, k, OUT)] = (v - net->out_offset[o]) / net->out_scale[o];
-        }
-    }
-    return out->x != NULL && out->t != NULL;
-}
-
 static bool put(FILE *file, size_t n, const double *x)
 {
     return fwrite(x, sizeof *x, n, file) == n;
 }
 
-static bool dump(const char *path, const struct part part[2], int count, const double *start)
+static bool dump(const char *path, const struct train_problem *p, int count, const double *start)
 {
     FILE *file = fopen(path, "wb");
     if (file == NULL) {
         return false;
     }
-    const double head[3] = {part[0].n, part[1].n, count};
-    bool done = put(file, 3, head);
-    for (int i = 0; i < 2; i++) {
-        done = done && put(file, (size_t)part[i].n * IN, part[i].x) &&
-               put(file, (size_t)part[i].n * OUT, part[i].t);
-    }
-    done = done && put(file, (size_t)count, start);
+    const double head[3] = {p->n_trained, p->n_held, count};
+    const size_t n_trained = (size_t)p->n_trained, n_held = (size_t)p->n_held;
+    const bool done = put(file, 3, head) && put(file, n_trained * IN, p->trained_x) &&
+                      put(file, n_trained * OUT, p->trained_t) &&
+                      put(file, n_held * IN, p->held_x) && put(file, n_held * OUT, p->held_t) &&
+                      put(file, (size_t)count, start);
     return fclose(file) == 0 && done;
 }
 
-static enum status train(const struct part part[2], const char *path)
+static enum status train(const struct train_problem *problem, const char *path)
 {
-    const struct train_problem problem = {.shape = {.n_in = IN, .n_hidden = HIDDEN, .n_out = OUT},
-                                          .n_trained = part[0].n,
-                                          .n_held = part[1].n,
-                                          .trained_x = part[0].x,
-                                          .trained_t = part[0].t,
-                                          .held_x = part[1].x,
-                                          .held_t = part[1].t};
-    const int count = perceptron_count(&problem.shape);
+    const int count = perceptron_count(&problem->shape);
     struct train_def def;
     struct train_curve curve = {0};
     double *p = malloc(2 * (size_t)count * sizeof *p);
     train_def_defaults(TRAIN_LM, &def);
     enum status st = p != NULL ? train_curve_init(def.epochs, &curve) : ST_NO_MEMORY;
     if (st == ST_OK) {
-        perceptron_start(&problem.shape, def.seed, p);
-        st = dump(path, part, count, p) ? ST_OK : ST_INVALID;
+        perceptron_start(&problem->shape, def.seed, p);
+        st = dump(path, problem, count, p) ? ST_OK : ST_INVALID;
     }
     if (st == ST_OK) {
         const double start = seconds();
-        st = train_lm(&problem, &def, NULL, p, p + count, &curve);
+        st = train_lm(problem, &def, NULL, p, p + count, &curve);
         (void)printf("%.4f\n", seconds() - start);
         for (int i = 0; i < curve.n; i++) {
             (void)printf("%d %.12g %.12g\n", i, curve.trained[i], curve.held[i]);
@@ -111,17 +79,15 @@ static enum status run(const struct dataset_def *def, const struct records *reco
                                         NET_IN_ALPHA_ACCELERATION},
                               .output = {NET_OUT_CL, NET_OUT_CM}};
     struct dataset data = {0};
-    struct part part[2] = {{0}, {0}};
     enum status st = dataset_build(def, records->n, records->record, problems, &data);
     if (st == ST_OK) {
+        struct train_problem problem;
         dataset_scaling(&data.trained, &net, problems);
-        const bool done =
-            part_init(&data.trained, &net, &part[0]) && part_init(&data.held, &net, &part[1]);
-        st = done ? train(part, path) : ST_NO_MEMORY;
-    }
-    for (int i = 0; i < 2; i++) {
-        free(part[i].x);
-        free(part[i].t);
+        st = train_problem_init(&data, &net, &problem);
+        if (st == ST_OK) {
+            st = train(&problem, path);
+            train_problem_done(&problem);
+        }
     }
     dataset_done(&data);
     return st;
