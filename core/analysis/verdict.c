@@ -206,26 +206,13 @@ static enum verdict of_drive(const struct march *march, double frequency, int fi
     return change <= repetition_limit ? VERDICT_FORCED : VERDICT_INDETERMINATE;
 }
 
-/* What the histories say, whoever made them. */
-static enum verdict of_histories(const struct march *march, char reason[VERDICT_REASON])
+/* A run that stayed in its bounds: does the tip's fluctuation grow, stay or decay? `drive` is the
+ * frequency of what swings the clamp [Hz], 0 without. */
+static enum verdict of_fluctuation(const struct march *march, double drive, int first,
+                                   double stalled, char *reason)
 {
     const struct model *m = march->model;
     const struct record *r = march->record;
-    double settled = 0.0;
-    const double drive = drive_frequency(m, &settled), dt = m->def.solver.time_step;
-    const int first = (int)fmin(ceil(settled / dt - 1e-9), r->n - 1);
-    const double stalled = stalled_in_last_third(r, first);
-    if (march->stop == STOP_AMPLITUDE || march->stop == STOP_NOT_FINITE) {
-        return of_blow_up(march, stalled, reason);
-    }
-    const double periods = (march->steps - first) * dt * m->modes.omega[0] / (2.0 * NUM_PI);
-    if (periods < VERDICT_PERIODS) {
-        (void)snprintf(reason, VERDICT_REASON,
-                       "the run covers %.2g periods of the first mode%s, a verdict needs %d",
-                       periods, first > 0 ? " after what drives it has ended or faded in" : "",
-                       VERDICT_PERIODS);
-        return VERDICT_INDETERMINATE;
-    }
     const struct thirds twist = thirds_of(r, first, HISTORY_TWIST, twist_floor);
     const struct thirds plunge =
         thirds_of(r, first, HISTORY_PLUNGE, plunge_floor * m->def.beam.length);
@@ -266,6 +253,29 @@ static enum verdict of_histories(const struct march *march, char reason[VERDICT_
     }
     const bool changed = fabs(log(lead->rms[2] / fmax(lead->rms[0], 1e-300))) > 0.2;
     return changed ? VERDICT_LIMIT_CYCLE : VERDICT_INDETERMINATE;
+}
+
+/* What the histories say, whoever made them. */
+static enum verdict of_histories(const struct march *march, char reason[VERDICT_REASON])
+{
+    const struct model *m = march->model;
+    const struct record *r = march->record;
+    double settled = 0.0;
+    const double drive = drive_frequency(m, &settled), dt = m->def.solver.time_step;
+    const int first = (int)fmin(ceil(settled / dt - 1e-9), r->n - 1);
+    const double stalled = stalled_in_last_third(r, first);
+    if (march->stop == STOP_AMPLITUDE || march->stop == STOP_NOT_FINITE) {
+        return of_blow_up(march, stalled, reason);
+    }
+    const double periods = (march->steps - first) * dt * m->modes.omega[0] / (2.0 * NUM_PI);
+    if (periods < VERDICT_PERIODS) {
+        (void)snprintf(reason, VERDICT_REASON,
+                       "the run covers %.2g periods of the first mode%s, a verdict needs %d",
+                       periods, first > 0 ? " after what drives it has ended or faded in" : "",
+                       VERDICT_PERIODS);
+        return VERDICT_INDETERMINATE;
+    }
+    return of_fluctuation(march, drive, first, stalled, reason);
 }
 
 enum verdict verdict_of(const struct march *march, char reason[VERDICT_REASON])
