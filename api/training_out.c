@@ -147,9 +147,7 @@ enum status training_compute(const struct api_case *c, const struct sim_control 
     st = st == ST_OK ? train(t, control, fail) : st;
     st = st == ST_OK ? make_entry(t) : st;
     if (st == ST_OK) {
-        if (control != NULL && control->progress != NULL) {
-            atomic_store(control->progress, 1.0);
-        }
+        sim_control_tell(control, 1.0);
         *out = t;
         return ST_OK;
     }

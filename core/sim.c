@@ -444,8 +444,8 @@ enum status sim_run(struct sim *sim, const struct sim_control *control, struct f
 {
     const enum status st = case_kind_has_beam(sim->model.def.kind) ? run_beam(sim, control, fail)
                                                                    : run_loop(sim, fail);
-    if (st == ST_OK && control != NULL && control->progress != NULL) {
-        atomic_store(control->progress, 1.0);
+    if (st == ST_OK) {
+        sim_control_tell(control, 1.0);
     }
     return st;
 }

@@ -322,7 +322,7 @@ bool study_work_unit(struct study_work *w, const struct worker_env *env, int slo
     const struct sim_control control = dispatch_control(env->dispatch, slot);
     w->unit = &u;
     while (st == ST_OK && u.kept && u.next < claim->last) {
-        st = atomic_load(control.cancel) ? ST_CANCELLED : answer_cell(&u, &control);
+        st = sim_control_cancelled(&control) ? ST_CANCELLED : answer_cell(&u, &control);
         const bool due = is_due(&u) || w->n == BATCH_MAX;
         if (st == ST_OK && due && u.next < claim->last) {
             publish(&u, STORE_UNIT_YIELD);

@@ -93,7 +93,7 @@ static enum status solve_at(struct sweep *s, double speed, const struct point *n
 {
     const int n = s->at.n_mode;
     const size_t bytes = (size_t)n * sizeof *s->w.q;
-    if (s->control != NULL && s->control->cancel != NULL && atomic_load(s->control->cancel)) {
+    if (sim_control_cancelled(s->control)) {
         return ST_CANCELLED;
     }
     s->at.def.flow.speed = speed;
@@ -365,9 +365,7 @@ static void keep_point(struct sweep *s, int i, const struct point *p)
         }
     }
     r->n_speed = i + 1;
-    if (s->control != NULL && s->control->progress != NULL) {
-        atomic_store(s->control->progress, (double)(i + 1) / rows);
-    }
+    sim_control_tell(s->control, (double)(i + 1) / rows);
 }
 
 /* From still air to the lowest speed, to know the branches by their natural modes; and what becomes

@@ -87,13 +87,11 @@ enum status march_run(struct march *march, const struct sim_control *control)
     evaluate_start(march);
     record_push(march->model, w, march->record);
     while (!must_stop(march) && march->steps < steps) {
-        if (march->steps % POLL_EVERY == 0 && control != NULL) {
-            if (control->cancel != NULL && atomic_load(control->cancel)) {
+        if (march->steps % POLL_EVERY == 0) {
+            if (sim_control_cancelled(control)) {
                 return ST_CANCELLED;
             }
-            if (control->progress != NULL) {
-                atomic_store(control->progress, (double)march->steps / steps);
-            }
+            sim_control_tell(control, (double)march->steps / steps);
         }
         memcpy(w->qdd_previous, w->qdd, (size_t)w->n_mode * sizeof *w->qdd);
         const enum status st = advance(march);

@@ -85,14 +85,8 @@ bool train_curve_add(struct train_curve *c, int patience, double trained, double
 
 bool train_is_cancelled(const struct sim_control *control, int epoch, int epochs)
 {
-    if (control == NULL) {
-        return false;
-    }
-    if (control->progress != NULL) {
-        atomic_store(control->progress, (control->part + (double)epoch / epochs) /
-                                            (control->parts > 0 ? control->parts : 1));
-    }
-    return control->cancel != NULL && atomic_load(control->cancel);
+    sim_control_tell(control, (double)epoch / epochs);
+    return sim_control_cancelled(control);
 }
 
 bool train_note(const struct train_problem *problem, const struct train_def *def, double trained,
