@@ -111,6 +111,11 @@ def plunge_amplitude(frequency, share):
     return float("%.2g" % (between(0.2, 1.0, share) * min(0.35, W_DOT_MAX / (2.0 * math.pi * frequency))))
 
 
+def name_of(kind, mean, a, w, f):
+    name = "%s_m%g" % ("pitchplunge" if kind == "both" else kind, mean)
+    return name + ("_a%g" % a if a else "") + ("_w%g" % w if w else "") + "_f%g" % f
+
+
 def sines():
     """Pitch, plunge and both at one frequency: slow ones between 0.03 and 0.16, where bending is, and
     fast ones up to 0.8, where torsion is."""
@@ -124,9 +129,29 @@ def sines():
                 a = pitch_amplitude(f, halton(i, 5)) if kind != "plunge" else 0.0
                 w = plunge_amplitude(f, halton(i, 7)) if kind != "pitch" else 0.0
                 phase = 45.0 * math.floor(8.0 * halton(i, 11)) if kind == "both" else 0.0
-                name = "%s_m%g" % ("pitchplunge" if kind == "both" else kind, mean)
-                name += ("_a%g" % a if a else "") + ("_w%g" % w if w else "") + "_f%g" % f
-                yield sine(name, "sine_%s_%s" % (kind, group), mean, f, a, w, phase)
+                yield sine(name_of(kind, mean, a, w, f), "sine_%s_%s" % (kind, group), mean, f, a, w, phase)
+
+
+def small_sines():
+    """Motions that stay below stall, a peak angle of 2 to 7.5 deg with the incidence of the plunge: the
+    other sines, drawn over all mean angles, leave few records there, and of small amplitude hardly any."""
+    for kind, slow_count, fast_count, offset in (("pitch", 8, 6, 301), ("plunge", 6, 5, 341),
+                                                 ("both", 4, 5, 371)):
+        for group, count, frequency_of in (("slow", slow_count, slow), ("fast", fast_count, fast)):
+            start = offset if group == "slow" else offset + 200
+            for i in range(start, start + count):
+                f = frequency_of(halton(i, 2))
+                peak = between(2.0, 7.5, halton(i, 5))
+                mean = round(2.0 * between(0.0, peak - 1.0, halton(i, 3))) / 2.0
+                a, w, phase = 0.0, 0.0, 0.0
+                if kind != "plunge":
+                    a = round((peak - mean) * min(1.0, FAST / f), 1)
+                if kind != "pitch":
+                    w = float("%.2g" % (math.radians(peak - mean) / (2.0 * math.pi * f)))
+                if kind == "both":  # half of it each, in the worst case one on top of the other
+                    a, w = round(0.5 * a, 1), float("%.2g" % (0.5 * w))
+                    phase = 45.0 * math.floor(8.0 * halton(i, 7))
+                yield sine(name_of(kind, mean, a, w, f), "sine_small", mean, f, a, w, phase)
 
 
 def anchors(block, suffix="", points=None, **settings):
@@ -242,12 +267,13 @@ def both_checks():
 def document_rows():
     """All rows in order. Within a block the i-th of n rows has the rank x = (i + 1/2) / n, turned into
     a + b x: forward where others wait for it; the angles at mid-channel come before everything, the
-    other Reynolds numbers after everything."""
+    small sines after all other motions, the other Reynolds numbers after everything."""
     place = {"static": (0.0, 0.0), "static_coarse": (0.0, 0.04), "static_plunge": (0.0, 0.05),
-             "check_static": (0.0, 0.15), "check_sine_both": (0.0, 0.1), "reynolds": (1.0, 1.0)}
+             "check_static": (0.0, 0.15), "check_sine_both": (0.0, 0.1), "sine_small": (1.0, 0.0), "reynolds": (1.0, 1.0)}
     blocks = {}
     for source in (statics(), anchors("sine_pitch_slow"), plunge_anchors(), sines(), broadband(),
-                   statics_off_centre(), statics_coarse(), slope_checks(), reynolds(), motion_checks(), both_checks()):
+                   statics_off_centre(), statics_coarse(), slope_checks(), reynolds(), motion_checks(), both_checks(),
+                   small_sines()):
         for row in source:
             blocks.setdefault(row["block"], []).append(row)
     ranked = []
