@@ -26,9 +26,9 @@ bool dataset_column_is_optional(int column)
 
 static void write_cell(struct json_out *out, double value)
 {
-    char text[JSON_NUMBER_SIZE];
+    char text[NUMBER_TEXT_SIZE];
     json_out_bytes(out, ",", 1);
-    json_out_bytes(out, text, json_number_text(value, text));
+    json_out_bytes(out, text, number_text(value, text));
 }
 
 static void write_line(struct json_out *out, const struct flow_record *r, int i)

@@ -28,16 +28,16 @@ int field_name_index(const char *const *names, const char *text)
 void field_range_text(const struct field_range *range, size_t size, char *out)
 {
     if (range->min == range->max) {
-        (void)json_number_text(range->min, out);
+        (void)number_text(range->min, out);
         return;
     }
-    char min[JSON_NUMBER_SIZE + 8] = "", max[JSON_NUMBER_SIZE + 8] = "", number[JSON_NUMBER_SIZE];
+    char min[NUMBER_TEXT_SIZE + 8] = "", max[NUMBER_TEXT_SIZE + 8] = "", number[NUMBER_TEXT_SIZE];
     if (isfinite(range->min)) {
-        (void)json_number_text(range->min, number);
+        (void)number_text(range->min, number);
         (void)snprintf(min, sizeof min, "%s %s ", number, range->above_min ? "<" : "<=");
     }
     if (isfinite(range->max)) {
-        (void)json_number_text(range->max, number);
+        (void)number_text(range->max, number);
         (void)snprintf(max, sizeof max, " %s %s", range->below_max ? "<" : "<=", number);
     }
     (void)snprintf(out, size, "%sx%s", min, max);

@@ -111,14 +111,14 @@ void json_value(struct json_out *out, const struct cJSON *value)
 
 void json_describe(const struct cJSON *value, size_t size, char *out)
 {
-    char number[JSON_NUMBER_SIZE] = "a number that is not finite";
+    char number[NUMBER_TEXT_SIZE] = "a number that is not finite";
     if (cJSON_IsString(value)) {
         (void)snprintf(out, size, strlen(value->valuestring) < size - 3 ? "\"%s\"" : "\"%.60s...\"",
                        value->valuestring);
         return;
     }
     if (cJSON_IsNumber(value) && isfinite(value->valuedouble)) {
-        (void)json_number_text(value->valuedouble, number);
+        (void)number_text(value->valuedouble, number);
     }
     const char *text = cJSON_IsNumber(value)  ? number
                        : cJSON_IsTrue(value)  ? "true"

@@ -1,8 +1,10 @@
 #include "api/json_out.h"
 
 #include "api/utf8.h"
+#include "core/num.h"
 
 #include <assert.h>
+#include <limits.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -132,34 +134,12 @@ void json_string(struct json_out *out, const char *text)
     }
 }
 
-static bool same_bits(double a, double b)
-{
-    uint64_t x, y;
-    memcpy(&x, &a, sizeof x);
-    memcpy(&y, &b, sizeof y);
-    return x == y;
-}
-
-size_t json_number_text(double value, char text[JSON_NUMBER_SIZE])
-{
-    assert(isfinite(value));
-    int length = 0;
-    for (int digits = 15; digits <= 17; digits++) {
-        length = snprintf(text, JSON_NUMBER_SIZE, "%.*g", digits, value);
-        if (same_bits(strtod(text, NULL), value)) {
-            break;
-        }
-    }
-    assert(length > 0 && length < JSON_NUMBER_SIZE);
-    return (size_t)length;
-}
-
 void json_number(struct json_out *out, double value)
 {
-    char text[JSON_NUMBER_SIZE];
+    char text[NUMBER_TEXT_SIZE];
     value_begin(out);
     if (isfinite(value)) {
-        const size_t length = json_number_text(value, text);
+        const size_t length = number_text(value, text);
         json_out_bytes(out, text, length);
     } else {
         json_out_text(out, "null");
@@ -170,6 +150,10 @@ void json_number_in_unit(struct json_out *out, double si, double unit)
 {
     assert(unit > 0.0);
     const double near = si / unit;
+    if (!isfinite(near)) {
+        json_null(out);
+        return;
+    }
     /* The division is off by an ulp or two at most; one of the neighbours multiplies back. */
     enum { NEIGHBOURS = 5 };
     double candidate[NEIGHBOURS] = {near};
@@ -177,23 +161,22 @@ void json_number_in_unit(struct json_out *out, double si, double unit)
     candidate[2] = nextafter(near, -INFINITY);
     candidate[3] = nextafter(candidate[1], INFINITY);
     candidate[4] = nextafter(candidate[2], -INFINITY);
-    char text[JSON_NUMBER_SIZE];
-    for (int digits = 15; isfinite(near) && digits <= 17; digits++) {
-        for (int i = 0; i < NEIGHBOURS; i++) {
-            (void)snprintf(text, sizeof text, "%.*g", digits, candidate[i]);
-            const double back = strtod(text, NULL);
-            if (same_bits(back * unit, si)) {
-                json_number(out, back);
-                return;
-            }
+    double best = near;
+    int fewest = INT_MAX;
+    for (int i = 0; i < NEIGHBOURS; i++) {
+        const bool same = isfinite(candidate[i]) && num_same_bits(candidate[i] * unit, si);
+        const int digits = same ? number_digits(candidate[i]) : INT_MAX;
+        if (digits < fewest) {
+            fewest = digits;
+            best = candidate[i];
         }
     }
-    json_number(out, near);
+    json_number(out, best);
 }
 
 void json_integer(struct json_out *out, long long value)
 {
-    char text[JSON_NUMBER_SIZE];
+    char text[NUMBER_TEXT_SIZE];
     value_begin(out);
     const int length = snprintf(text, sizeof text, "%lld", value);
     json_out_bytes(out, text, (size_t)length);

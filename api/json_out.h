@@ -6,10 +6,12 @@
 #ifndef AEROM_API_JSON_OUT_H
 #define AEROM_API_JSON_OUT_H
 
+#include "api/number_text.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { JSON_NUMBER_SIZE = 32, JSON_OUT_MAX = 1 << 29 };
+enum { JSON_OUT_MAX = 1 << 29 };
 
 struct json_out {
     char *text; /* zero-terminated once there is any */
@@ -52,9 +54,6 @@ void json_key_numbers(struct json_out *out, const char *key, int n, const double
 /* Number of a document whose unit is `unit` in SI: the shortest text t with t * unit == si to the
  * bit, so that a value survives reading and printing in both directions. */
 void json_number_in_unit(struct json_out *out, double si, double unit);
-
-/* Shortest of %.15g, %.16g, %.17g that reads back bit-equal. Returns its length. */
-size_t json_number_text(double value, char text[JSON_NUMBER_SIZE]);
 
 /* Hands the text over (malloc'ed) and empties the writer; NULL when it failed. */
 char *json_out_take(struct json_out *out, size_t *size);

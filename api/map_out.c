@@ -73,15 +73,15 @@ static void csv_text(struct json_out *out, const char *text)
 
 static void csv_number(struct json_out *out, double value)
 {
-    char text[JSON_NUMBER_SIZE];
+    char text[NUMBER_TEXT_SIZE];
     if (isfinite(value)) {
-        json_out_bytes(out, text, json_number_text(value, text));
+        json_out_bytes(out, text, number_text(value, text));
     }
 }
 
 static void csv_row(struct json_out *out, const struct study_map *m, int cell)
 {
-    char number[JSON_NUMBER_SIZE];
+    char number[NUMBER_TEXT_SIZE];
     (void)snprintf(number, sizeof number, "%d", cell);
     json_out_text(out, number);
     for (int i = 0; i < m->n_axis; i++) {

@@ -97,9 +97,9 @@ void series_out_json(struct json_out *out, const struct series_data *data, int p
 
 static void csv_number(struct json_out *out, double value)
 {
-    char text[JSON_NUMBER_SIZE];
+    char text[NUMBER_TEXT_SIZE];
     if (isfinite(value)) {
-        const size_t length = json_number_text(value, text);
+        const size_t length = number_text(value, text);
         json_out_bytes(out, text, length);
     }
 }

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
+#include <string.h>
 
 /* C11's CMPLX, which glibc gives gcc only. */
 #define NUM_COMPLEX(re, im) __builtin_complex((double)(re), (double)(im))
@@ -36,6 +38,15 @@ static inline double num_clamp(double x, double lo, double hi)
 static inline ptrdiff_t num_at(int i, int j, int rows)
 {
     return i + (ptrdiff_t)rows * j;
+}
+
+/* Tells zeros of different sign apart. */
+static inline bool num_same_bits(double a, double b)
+{
+    uint64_t x, y;
+    memcpy(&x, &a, sizeof x);
+    memcpy(&y, &b, sizeof y);
+    return x == y;
 }
 
 static inline bool num_all_finite(int n, const double *x)

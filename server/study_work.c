@@ -25,7 +25,8 @@ struct study_work {
     struct study *study;
     struct study_runner *runner;
     struct study_memory memory; /* of the runner */
-    struct unit_run *unit;      /* the one being computed */
+    struct packer *packer;
+    struct unit_run *unit; /* the one being computed */
     int n;
     struct kept_cell kept[BATCH_MAX];
 };
@@ -43,7 +44,15 @@ struct unit_run {
 
 struct study_work *study_work_create(void)
 {
-    return calloc(1, sizeof(struct study_work));
+    struct study_work *w = calloc(1, sizeof *w);
+    if (w != NULL) {
+        w->packer = packer_create();
+    }
+    if (w != NULL && w->packer == NULL) {
+        free(w);
+        w = NULL;
+    }
+    return w;
 }
 
 static void forget_cells(struct study_work *w)
@@ -69,6 +78,7 @@ void study_work_destroy(struct study_work *w)
     if (w != NULL) {
         forget_cells(w);
         forget_study(w);
+        packer_destroy(w->packer);
         free(w);
     }
 }
@@ -149,7 +159,7 @@ static void give_up(struct kept_cell *k, int lost)
                    lost);
 }
 
-static bool fill(struct kept_cell *k)
+static bool fill(struct study_work *w, struct kept_cell *k)
 {
     struct store_cell *c = &k->cell;
     const struct study_cell_result *r = &k->result;
@@ -161,7 +171,8 @@ static bool fill(struct kept_cell *k)
     c->cpu_s = r->cpu_s;
     if (r->summary != NULL) {
         c->summary_size = strlen(r->summary);
-        k->packed = pack_text(r->summary, c->summary_size, PACK_LEVEL, &c->summary_packed);
+        k->packed =
+            packer_text(w->packer, r->summary, c->summary_size, PACK_LEVEL, &c->summary_packed);
         c->summary = k->packed;
     }
     return r->summary == NULL || k->packed != NULL;
@@ -172,7 +183,7 @@ static enum status put(struct study_work *w, const struct kept_cell *k)
 {
     w->kept[w->n] = *k;
     w->n++;
-    return fill(&w->kept[w->n - 1]) ? ST_OK : ST_NO_MEMORY;
+    return fill(w, &w->kept[w->n - 1]) ? ST_OK : ST_NO_MEMORY;
 }
 
 static bool is_due(const struct unit_run *u)

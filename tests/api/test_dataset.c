@@ -54,14 +54,14 @@ static char *csv_of(void)
     json_out_text(&out, "record,period_c_v,t,alpha_deg,alpha_dot,alpha_ddot,cl,cd,cm\n");
     for (int j = 0; j < RECORDS; j++) {
         for (int i = 0; i < SAMPLES; i++) {
-            char text[JSON_NUMBER_SIZE], name[16];
+            char text[NUMBER_TEXT_SIZE], name[16];
             name_of(j, name);
             json_out_text(&out, name);
             json_out_text(&out, ",10");
             for (int k = 0; k < FLOW_ROWS; k++) {
                 if (k < FLOW_W || k > FLOW_W_ACCELERATION) {
                     json_out_text(&out, ",");
-                    json_out_bytes(&out, text, json_number_text(sample(j, k, i), text));
+                    json_out_bytes(&out, text, number_text(sample(j, k, i), text));
                 }
             }
             json_out_text(&out, "\n");
