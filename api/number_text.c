@@ -195,8 +195,7 @@ size_t number_text(double value, char text[NUMBER_TEXT_SIZE])
     uint64_t d = 0;
     assert(isfinite(value));
     if (value == 0.0) {
-        (void)strcpy(text, signbit(value) ? "-0" : "0");
-        return strlen(text);
+        return (size_t)snprintf(text, NUMBER_TEXT_SIZE, signbit(value) ? "-0" : "0");
     }
     const int digits = shortest(value, &s, &d);
     if (digits == 0) {
