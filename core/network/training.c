@@ -52,15 +52,12 @@ static enum status train_on(const struct training_def *def, int n_record,
                           problems);
 }
 
-/* Deals the records that move out to the folds, in an order drawn from the seed; -1 for the others.
- */
-static void deal(const struct training_def *def, int n_record, const struct flow_record *record,
-                 int *fold)
+void training_deal(uint64_t seed, int folds, int n_record, const struct flow_record *record,
+                   int *fold)
 {
-    uint64_t seed = def->data.seed;
     int moving = 0;
     for (int i = 0; i < n_record; i++) {
-        fold[i] = flow_record_moves(&record[i]) ? moving++ % def->folds : -1;
+        fold[i] = flow_record_moves(&record[i]) ? moving++ % folds : -1;
     }
     for (int i = n_record - 1; i > 0; i--) {
         const int k = (int)(random_uniform(&seed) * (i + 1));
@@ -115,7 +112,7 @@ static enum status cross_validate(const struct training_def *def, const struct f
                          ? ST_OK
                          : ST_NO_MEMORY;
     if (st == ST_OK) {
-        deal(def, r->n_record, record, f.fold);
+        training_deal(def->data.seed, def->folds, r->n_record, record, f.fold);
     }
     for (; control->part < def->folds && st == ST_OK; control->part++) {
         st = train_fold(def, &f, control->part, record, control, r, problems);

@@ -34,6 +34,11 @@ struct training_result {
  * one member of 50 neurons. */
 void training_def_defaults(struct training_def *def);
 
+/* Deals the records that move out to the folds of a cross-validation, in an order drawn from the
+ * seed: fold (n_record), 0..folds - 1, or -1 for a record at rest. */
+void training_deal(uint64_t seed, int folds, int n_record, const struct flow_record *record,
+                   int *fold);
+
 /* Records must have passed their check. ST_CANCELLED; ST_INVALID with *problems filled. On failure
  * *out is empty. */
 MUST_CHECK enum status training_run(const struct training_def *def, int n_record,

@@ -22,6 +22,7 @@ sys.path.insert(0, str(ROOT / "tests" / "support"))
 import ask  # noqa: E402
 import build_harmonics  # noqa: E402
 import motion  # noqa: E402
+import uncertainty  # noqa: E402
 import svg  # noqa: E402
 
 PAGE = ROOT / "docs" / "LOOPS.md"
@@ -60,7 +61,7 @@ def terms(row):
 
 
 def average_cycle(row, frequency):
-    """Mean of the counted cycles, and the standard deviation of their work."""
+    """Mean of the counted cycles, and these."""
     record = build_harmonics.read(CFD / "records" / (row["name"] + ".csv"))
     cycles = build_harmonics.cycles_of(row, record, frequency)
     average = {key: [statistics.fmean(c[key][j] for c in cycles) for j in range(POINTS)]
@@ -116,12 +117,18 @@ def own_slope(folder):
     return path, best
 
 
+def work_uncertainties():
+    """{name: uncertainty of the work} of all sines, and the share of its size it stands for."""
+    rows = ask.rows(CFD / "harmonics.csv")
+    part = uncertainty.share(rows)
+    return {row["name"]: uncertainty.of_work(row, part) for row in rows}, part
+
+
 def compare(aerom, row, own):
     pitch, plunge = terms(row)
-    reference, cycles = average_cycle(row, (pitch or plunge)[1])
-    works = [work(c, pitch, plunge) for c in cycles]
+    reference, _ = average_cycle(row, (pitch or plunge)[1])
     result = {"row": row, "pitch": pitch, "plunge": plunge, "cfd": reference,
-              "work": statistics.fmean(works), "work_sd": statistics.pstdev(works)}
+              "work": work(reference, pitch, plunge)}
     for key, options, _, _ in MODELS:
         cycle = model_cycle(aerom, options, own if key == "own" else POLAR, row, pitch, plunge)
         result[key] = {"cycle": cycle, "work": work(cycle, pitch, plunge),
@@ -164,7 +171,15 @@ def relative_angle(item):
     return angles
 
 
-def drawing(item):
+def error_bar(panel, cycle, percent):
+    """What meshes and steps make the record differ by, at the left edge of a panel."""
+    low, high = min(cycle), max(cycle)
+    middle, half = 0.5 * (low + high), 0.01 * percent * (high - low)
+    x = panel.x_axis.low + 0.03 * (panel.x_axis.high - panel.x_axis.low)
+    panel.curve((x, x), (middle - half, middle + half), svg.BLACK, 5)
+
+
+def drawing(item, percent):
     angles = relative_angle(item)
     drawn = [(svg.BLACK, item["cfd"], 2.5)]
     drawn += [(colour, item[key]["cycle"], 1.5) for key, _, _, colour in MODELS if colour]
@@ -175,10 +190,12 @@ def drawing(item):
                           svg.Axis.of([v for _, cycle, _ in drawn for v in cycle[key]]), title)
         for colour, cycle, width in drawn:
             panel.curve(angles[::2], cycle[key][::2], colour, width, closed=True)
+        error_bar(panel, item["cfd"][key], percent[key])
         parts.append(panel)
     names = [(svg.BLACK, "flow computation")] + [(c, n) for _, _, n, c in MODELS if c]
-    return svg.document(960, 430, "Lift and moment of %s: flow computation and models" % item["row"]["name"],
-                        parts + svg.legend(names, 60, 412, 190))
+    note = '<text x="60" y="434">bar at the left: what other meshes and steps differ by (±, rms, the largest found)</text>'
+    return svg.document(960, 446, "Lift and moment of %s: flow computation and models" % item["row"]["name"],
+                        parts + svg.legend(names, 60, 412, 190) + [note])
 
 
 def motion_text(item):
@@ -192,17 +209,29 @@ def motion_text(item):
     return ", ".join(parts)
 
 
-def check_table():
-    """Other meshes and steps of the same motion: what the flow computation does not know itself."""
+def checks():
+    """The same motion on other meshes and with other steps: (name, what changed, pitch, plunge, the two average
+    cycles)."""
     base = {row["name"]: row for row in sine_rows()}
-    lines = []
     for row in index_rows("check_sine"):
         name, change = row["name"].rsplit("_", 1)
-        if name not in base:
-            continue
-        pitch, plunge = terms(row)
-        frequency = (pitch or plunge)[1]
-        reference, other = (average_cycle(r, frequency)[0] for r in (base[name], row))
+        if name in base:
+            pitch, plunge = terms(row)
+            frequency = (pitch or plunge)[1]
+            yield (name, change, pitch, plunge,
+                   *(average_cycle(r, frequency)[0] for r in (base[name], row)))
+
+
+def loop_uncertainty():
+    """Largest misfits between meshes and steps, in per cent of the range."""
+    found = list(checks())
+    return {c: max(misfit(other, reference, c) for *_, reference, other in found) for c in ("cl", "cm")}
+
+
+def check_table():
+    """What the flow computation does not know itself."""
+    lines = []
+    for name, change, pitch, plunge, reference, other in checks():
         lines.append("| `%s` | %s | %.1f %%, %.1f %% | %s, %s |" % (
             name, change, misfit(other, reference, "cl"), misfit(other, reference, "cm"),
             signed(work(reference, pitch, plunge)), signed(work(other, pitch, plunge))))
@@ -237,19 +266,19 @@ def signed(value):
     return "%+.5f" % (value + 0.0)
 
 
-def table(items):
+def table(items, uncertain):
     yield "| motion | f c/V | work | " + " | ".join(
         "%s: c_l, c_m, work" % name for _, _, name, _ in MODELS) + " |"
     yield "|---|---|---|" + "---|" * len(MODELS)
     for item in items:
         cells = [motion_text(item), "%g" % (item["pitch"] or item["plunge"])[1],
-                 "%s ± %.5f" % (signed(item["work"]), item["work_sd"])]
+                 "%s ± %.5f" % (signed(item["work"]), uncertain[item["row"]["name"]])]
         cells += ["%.0f %%, %.0f %%, %s" % (item[key]["misfit"]["cl"], item[key]["misfit"]["cm"],
                                           signed(item[key]["work"])) for key, _, _, _ in MODELS]
         yield "| " + " | ".join(cells) + " |"
 
 
-def summary(items):
+def summary(items, uncertain):
     yield "| | " + " | ".join(name for _, _, name, _ in MODELS) + " |"
     yield "|---|" + "---|" * len(MODELS)
     for title, value in (
@@ -260,8 +289,9 @@ def summary(items):
             "%.0f %%" % statistics.median(value(i, key) for i in items) for key, _, _, _ in MODELS) + " |"
     pitching = [i for i in items if not i["plunge"]]
     if pitching:
-        yield "| pitch: sign of the work right | " + " | ".join(
-            "%d of %d" % (sum(same_sign(i[key]["work"], i["work"]) for i in pitching), len(pitching))
+        decided = [i for i in pitching if abs(i["work"]) > uncertain[i["row"]["name"]]]
+        yield "| pitch: sign of the work right, where it is known | " + " | ".join(
+            "%d of %d" % (sum(same_sign(i[key]["work"], i["work"]) for i in decided), len(decided))
             for key, _, _, _ in MODELS) + " |"
         scale = statistics.fmean(abs(i["work"]) for i in pitching)
         yield "| pitch: mean error of the work, over its mean size | " + " | ".join(
@@ -269,7 +299,7 @@ def summary(items):
                          / scale) for key, _, _, _ in MODELS) + " |"
 
 
-def page(items, broadband, own):
+def page(items, broadband, own, uncertain):
     with open(Path(__file__).with_name("text.md"), encoding="utf-8") as file:
         before, after = file.read().split("<!-- numbers -->\n")
     yield before.rstrip("\n")
@@ -283,15 +313,14 @@ def page(items, broadband, own):
     yield "%d sines. The slope and centre of the last column are the polar's own: %.2f per rad and %.3f c." % (
         len(items), own[0], own[1])
     yield ""
-    yield from summary(items)
-    for title, kind in (("Pitch", "sine_pitch"), ("Plunge", "sine_plunge"),
-                        ("Pitch and plunge", "sine_both")):
-        group = [i for i in items if i["row"]["block"].startswith(kind)]
+    yield from summary(items, uncertain)
+    for title, moves in (("Pitch", (True, False)), ("Plunge", (False, True)), ("Pitch and plunge", (True, True))):
+        group = [i for i in items if (bool(i["pitch"]), bool(i["plunge"])) == moves]
         if group:
             yield ""
             yield "## " + title
             yield ""
-            yield from table(group)
+            yield from table(group, uncertain)
             for item in group:
                 if item["row"]["name"] in DRAWN:
                     yield ""
@@ -318,10 +347,11 @@ def main():
         items = [compare(arguments.aerom, row, path) for row in sine_rows()]
         broadband = [compare_broadband(arguments.aerom, row, path) for row in index_rows("broadband_")]
     items.sort(key=lambda i: ((i["pitch"] or i["plunge"])[1], float(i["row"]["mean_deg"])))
+    percent = loop_uncertainty()
     for item in items:
         if item["row"]["name"] in DRAWN:
-            (DRAWINGS / (item["row"]["name"] + ".svg")).write_text(drawing(item), encoding="utf-8")
-    PAGE.write_text("\n".join(page(items, broadband, own)) + "\n", encoding="utf-8")
+            (DRAWINGS / (item["row"]["name"] + ".svg")).write_text(drawing(item, percent), encoding="utf-8")
+    PAGE.write_text("\n".join(page(items, broadband, own, work_uncertainties()[0])) + "\n", encoding="utf-8")
     return 0
 
 

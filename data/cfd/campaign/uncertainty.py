@@ -1,0 +1,40 @@
+"""How far records can be trusted: what the same motion gives on another mesh or with another step.
+
+The work of a cycle is a small difference of large loads: half the range of a load times the amplitude of
+the motion, times pi, is what it would be a quarter cycle out of phase. Its error is counted in shares of
+that size. Rows are those of ../harmonics.csv. Python 3 standard library."""
+
+import math
+
+CHANGES = ("_step0.01", "_step0.005", "_coarse")
+
+
+def sizes(row):
+    """Largest work that pitch and plunge could do with loads of this size."""
+    amplitudes = (("cm", math.radians(float(row["pitch_deg"]))), ("cl", float(row["plunge_c"])))
+    return [0.5 * math.pi * (float(row[c + "_max"]) - float(row[c + "_min"])) * a for c, a in amplitudes]
+
+
+def checks(rows):
+    """(row, the same motion computed otherwise) for all that were computed again."""
+    by_name = {row["name"]: row for row in rows}
+    for row in rows:
+        for change in CHANGES:
+            base = by_name.get(row["name"].removesuffix(change))
+            if row["name"].endswith(change) and base is not None:
+                yield base, row
+
+
+def share(rows):
+    """Largest difference of the work in the checks, in shares of its size."""
+    found = 0.0
+    for base, other in checks(rows):
+        for key, size in zip(("work_pitch", "work_plunge"), sizes(base)):
+            if size > 0.0:
+                found = max(found, abs(float(other[key]) - float(base[key])) / size)
+    return found
+
+
+def of_work(row, part):
+    """Uncertainty of the work of a row: mesh and step, a `part` of the size, and the scatter of its cycles."""
+    return math.hypot(*(part * size for size in sizes(row)), float(row["work_sd"]))
