@@ -77,11 +77,6 @@ void la_cholesky_solve(int n, const double *factor, int n_rhs, double *b)
     assert(info == 0);
 }
 
-void la_gram_add(int n, int k, const double *a, double *c)
-{
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, n, k, 1.0, a, n, 1.0, c, n);
-}
-
 void la_multiply_add(int n, int k, const double *a, const double *x, double *y)
 {
     cblas_dgemv(CblasColMajor, CblasNoTrans, n, k, 1.0, a, n, x, 1, 1.0, y, 1);

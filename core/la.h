@@ -28,8 +28,7 @@ MUST_CHECK enum status la_solve_least_size(int n, double *a, double rank_toleran
 MUST_CHECK enum status la_cholesky(int n, double *a);
 void la_cholesky_solve(int n, const double *factor, int n_rhs, double *b);
 
-/* c += a a' in the lower triangle of c (n x n), and y += a x; a (n x k). Neither allocates. */
-void la_gram_add(int n, int k, const double *a, double *c);
+/* y += a x; a (n x k). Allocates nothing. */
 void la_multiply_add(int n, int k, const double *a, const double *x, double *y);
 
 /* Inverts a (n x n) in place without allocating; pivot (n), work (n x n). */

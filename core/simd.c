@@ -25,3 +25,14 @@ simd_gemv_fn simd_gemv(enum simd_level level)
     assert((unsigned)level < SIMD_LEVELS);
     return table[level];
 }
+
+#define KERNEL_STEM gram
+#define KERNEL_FILE "core/simd_gram.inc"
+#include "core/simd_levels.inc"
+
+simd_gram_fn simd_gram(enum simd_level level)
+{
+    static const simd_gram_fn table[SIMD_LEVELS] = {gram_portable, gram_avx2, gram_avx512};
+    assert((unsigned)level < SIMD_LEVELS);
+    return table[level];
+}

@@ -1,6 +1,7 @@
 /* core/simd.h
  * Eight doubles at a time: the vector type of gcc and clang, the instruction sets a kernel is
- * compiled for, and the one matrix-vector product the time loop needs.
+ * compiled for, the one matrix-vector product the time loop needs and the one matrix product of the
+ * training.
  *
  * A kernel is one body compiled once per level; nothing is contracted, so every level gives the
  * same bits. Stateless; thread-safe. */
@@ -45,5 +46,10 @@ static inline int simd_padded(int n)
  * aligned too. */
 typedef void (*simd_gemv_fn)(int rows, int n, const double *a, const double *x, double *y);
 simd_gemv_fn simd_gemv(enum simd_level level);
+
+/* c += a a', at least in the lower triangle of c (n x n); a is (n x k), n a multiple of LANES. A
+ * library's product would be as fast, where it knows the machine, but not of the same bits. */
+typedef void (*simd_gram_fn)(int n, int k, const double *a, double *c);
+simd_gram_fn simd_gram(enum simd_level level);
 
 #endif

@@ -3,6 +3,7 @@
 #include "core/aero/tanh_lanes.h"
 #include "core/num.h"
 #include "core/random.h"
+#include "core/simd.h"
 
 #include <string.h>
 
@@ -81,9 +82,15 @@ double perceptron_error(const struct perceptron *s, const double *p, int n, cons
     return sum / ((double)n * s->n_out);
 }
 
-int perceptron_basis_rows(const struct perceptron *s)
+/* Rows that are not zero. */
+static int basis_used(const struct perceptron *s)
 {
     return (s->n_in + 2) * s->n_hidden + 1;
+}
+
+int perceptron_basis_rows(const struct perceptron *s)
+{
+    return simd_padded(basis_used(s));
 }
 
 void perceptron_basis(const struct perceptron *s, const double *p, int n, const double *x,
@@ -103,6 +110,9 @@ void perceptron_basis(const struct perceptron *s, const double *p, int n, const 
             }
         }
         hidden[s->n_hidden] = 1.0;
+        for (int i = basis_used(s); i < rows; i++) {
+            row[i] = 0.0;
+        }
         for (int o = 0; o < s->n_out; o++) {
             e[num_at(k, o, n)] = y[o] - t[num_at(o, k, s->n_out)];
         }

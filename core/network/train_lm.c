@@ -2,6 +2,7 @@
 
 #include "core/la.h"
 #include "core/num.h"
+#include "core/simd.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +17,7 @@ static const double progress_least = 1e-12;
 
 struct lm {
     const struct train_problem *problem;
+    simd_gram_fn gram_add;
     int count;
     double weight; /* of the square of each parameter in the objective */
     double *gram;  /* J'J/m (count x count), lower */
@@ -42,6 +44,7 @@ static enum status lm_init(const struct train_problem *problem, const struct tra
         return ST_NO_MEMORY;
     }
     *s = (struct lm){.problem = problem,
+                     .gram_add = simd_gram(simd_level_of_machine()),
                      .count = count,
                      .weight = def->decay / count,
                      .gram = block,
@@ -88,7 +91,7 @@ static void normal_equations(struct lm *s, const double *p)
         const int n = t->n_trained - first < BLOCK ? t->n_trained - first : BLOCK;
         perceptron_basis(&t->shape, p, n, t->trained_x + num_at(0, first, t->shape.n_in),
                          t->trained_t + num_at(0, first, n_out), s->e, s->z);
-        la_gram_add(rows, n, s->z, s->zz);
+        s->gram_add(rows, n, s->z, s->zz);
         for (int o = 0; o < n_out; o++) {
             la_multiply_add(rows, n, s->z, s->e + num_at(0, o, n), s->ze + num_at(0, o, rows));
         }

@@ -3,6 +3,7 @@
 #include "core/network/train_adam.h"
 #include "core/network/train_lm.h"
 #include "core/num.h"
+#include "core/simd.h"
 #include "tests/support/fixture.h"
 #include "tests/support/unit.h"
 
@@ -26,7 +27,7 @@ static void random_vector(int n, uint64_t seed, double *x)
     }
 }
 
-enum { FEW = 5, ROWS = (IN + 2) * HIDDEN + 1 };
+enum { FEW = 5, ROWS = ((IN + 2) * HIDDEN + 1 + LANES - 1) / LANES * LANES };
 
 /* J'J and J'e of a few samples, by way of the basis. */
 static void normal(const double *p, const double *x, const double *t, double *gram, double *slope)
