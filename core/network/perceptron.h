@@ -32,9 +32,9 @@ double perceptron_error(const struct perceptron *s, const double *p, int n, cons
                         const double *t);
 
 /* Length of what the derivatives of one sample are made of: with d = 1 - hidden^2, the products d x
- * of each neuron and input, then d, hidden, and one, filled up with zeros to whole lanes. The derivatives of output o by the hidden
- * layer are the first two times w2, those by its own w2 and b2 the last two: all outputs share
- * them. */
+ * of each neuron and input, then d, hidden, and one, filled up with zeros to whole lanes. The
+ * derivatives of output o by the hidden layer are the first two times w2, those by its own w2 and
+ * b2 the last two: all outputs share them. */
 int perceptron_basis_rows(const struct perceptron *s);
 /* The basis of n samples, z (basis rows x n), and their residuals y - t, output by output: e
  * (n x n_out). */
