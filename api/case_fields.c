@@ -124,11 +124,10 @@ static const struct field dynamic_fields[] = {
      .read = case_read_network,
      .write = case_write_network},
     {.key = "force",
-     .kind = FIELD_CUSTOM,
+     .kind = FIELD_BOOLEAN,
+     .offset = offsetof(struct api_case, def.aero.network_forced),
      .applies = has_network,
-     .omit = is_not_forced,
-     .read = case_read_force,
-     .write = case_write_force},
+     .omit = is_not_forced},
     {0},
 };
 

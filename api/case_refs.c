@@ -142,20 +142,6 @@ void case_write_network(struct json_out *out, const void *base)
     json_string(out, ((const struct api_case *)base)->def.aero.network->name);
 }
 
-void case_read_force(struct reader *r, const struct cJSON *json, void *base)
-{
-    if (!cJSON_IsBool(json)) {
-        reader_problem(r, "wrong_type", "true or false", json, "the value must be true or false");
-        return;
-    }
-    ((struct api_case *)base)->def.aero.network_forced = cJSON_IsTrue(json);
-}
-
-void case_write_force(struct json_out *out, const void *base)
-{
-    json_boolean(out, ((const struct api_case *)base)->def.aero.network_forced);
-}
-
 void case_read_materials(struct reader *r, const struct cJSON *json, void *base)
 {
     (void)entry_read_list(r, json, &((struct api_case *)base)->local, entry_read_material);

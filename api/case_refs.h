@@ -17,8 +17,6 @@ void case_write_polar(struct json_out *out, const void *base);
 void case_read_network(struct reader *r, const struct cJSON *json, void *base);
 void case_write_network(struct json_out *out, const void *base);
 /* true or false: take a network that was trained on another polar. */
-void case_read_force(struct reader *r, const struct cJSON *json, void *base);
-void case_write_force(struct json_out *out, const void *base);
 
 /* Definitions; only those that are used are printed. */
 void case_read_materials(struct reader *r, const struct cJSON *json, void *base);

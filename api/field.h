@@ -16,6 +16,7 @@ enum field_kind {
     FIELD_NUMBER,  /* double */
     FIELD_INTEGER, /* int */
     FIELD_ENUM,    /* an enum that counts from 0 in the order of `names` */
+    FIELD_BOOLEAN, /* bool */
     FIELD_TEXT,    /* char[size] */
     FIELD_OBJECT,  /* members of the same struct, listed by `fields` */
     FIELD_PART,    /* the same of the struct inside, at `offset` */

@@ -238,6 +238,11 @@ void field_read_value(struct reader *r, const struct field *f, const struct cJSO
             memcpy(member(base, f->offset), &name, sizeof name);
         }
         break;
+    case FIELD_BOOLEAN:
+        if (field_expect(r, cJSON_IsBool(json), "true or false", json)) {
+            *(bool *)member(base, f->offset) = cJSON_IsTrue(json);
+        }
+        break;
     case FIELD_TEXT:
         field_read_text(r, f, json, member(base, f->offset));
         break;

@@ -81,6 +81,9 @@ void field_write_value(struct json_out *out, const struct field *f, unsigned kin
     case FIELD_ENUM:
         json_string(out, f->names[count_at(base, f->offset)]);
         break;
+    case FIELD_BOOLEAN:
+        json_boolean(out, *(const bool *)member(base, f->offset));
+        break;
     case FIELD_TEXT:
         json_string(out, member(base, f->offset));
         break;

@@ -19,6 +19,7 @@ static const struct field_range anchors = {.min = 0, .max = FLOW_SAMPLES_MAX};
 static const struct field_range members = {.min = 1, .max = ENSEMBLE_MEMBERS_MAX};
 static const struct field_range folds = {.min = 0, .max = TRAINING_FOLDS_MAX};
 static const struct field_range decay = {.min = 0.0, .max = 1.0};
+static const struct field_range balance = {.min = 0.0, .max = 1.0};
 static const struct field_range rate = {.min = 0.0, .max = 1.0, .above_min = true};
 static const struct field_range window = {.min = 0.0, .max = 1000.0, .above_min = true};
 static const struct field_range share = {
@@ -124,6 +125,8 @@ const struct field training_fields[] = {
     NUMBER("window_c_v", def.data.window, window),
     INTEGER("samples_max", def.data.samples_max, samples),
     INTEGER("anchors", def.data.anchors, anchors),
+    NUMBER("balance", def.data.balance, balance),
+    {.key = "symmetric", .kind = FIELD_BOOLEAN, .offset = AT(def.train.symmetric)},
     NUMBER("held_share", def.data.held_share, share),
     {0},
 };
@@ -133,6 +136,7 @@ static void check_network(struct reader *r, const struct training_def *d)
 {
     const long long neurons = (long long)d->members * d->network.n_hidden;
     network_def_check_frame(&d->network, r->pointer, r->problems);
+    training_def_check_parts(d, r->pointer, r->problems);
     if (neurons > LIMIT_NET_HIDDEN) {
         const size_t mark = reader_enter_key(r, "members");
         char expected[48];

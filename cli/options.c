@@ -38,6 +38,8 @@ static const struct option long_options[] = {
     {"folds", required_argument, NULL, 'Z'},
     {"samples", required_argument, NULL, 'Q'},
     {"anchors", required_argument, NULL, 'U'},
+    {"balance", required_argument, NULL, 'G'},
+    {"symmetric", no_argument, NULL, 'R'},
     {"optimiser", required_argument, NULL, 'O'},
     {"value", required_argument, NULL, 'V'},
     {"hidden", required_argument, NULL, 'H'},
@@ -82,7 +84,8 @@ static const struct target targets[] = {
     TARGET('F', FLAG, force),       TARGET('B', TEXT, base),
     TARGET('L', TEXT, lags),        TARGET('K', NUMBER, members),
     TARGET('Z', NUMBER, folds),     TARGET('Q', NUMBER, samples),
-    TARGET('U', NUMBER, anchors),
+    TARGET('U', NUMBER, anchors),   TARGET('G', NUMBER, balance),
+    TARGET('R', FLAG, symmetric),
 };
 
 static bool parse_number(const char *text, bool seconds, double *out)
@@ -141,6 +144,7 @@ bool options_parse(int argc, char **argv, const char *allowed, int least, int mo
                         .folds = NAN,
                         .samples = NAN,
                         .anchors = NAN,
+                        .balance = NAN,
                         .timeout_s = INFINITY};
     int letter = 0;
     while ((letter = getopt_long(argc, argv, "", long_options, NULL)) != -1) {

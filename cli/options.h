@@ -42,12 +42,14 @@ struct options {
     double folds;         /* -Z */
     double samples;       /* -Q */
     double anchors;       /* -U */
+    double balance;       /* -G */
     double timeout_s;     /* -t, infinite when not given */
     bool wait;            /* -w */
     bool csv;             /* -c */
     bool json;            /* -j */
     bool text;            /* -x */
     bool force;           /* -F */
+    bool symmetric;       /* -R */
     char **operand;       /* (n_operand) */
     int n_operand;
 };

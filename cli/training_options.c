@@ -82,6 +82,16 @@ static bool in_range(const char *option, int value, int least, int most)
     return false;
 }
 
+static bool set_balance(double value, struct training *t)
+{
+    t->def.data.balance = options_given(value, t->def.data.balance);
+    if (t->def.data.balance >= 0.0 && t->def.data.balance <= 1.0) {
+        return true;
+    }
+    (void)fprintf(stderr, "aerom: --balance: a number, 0..1\n");
+    return false;
+}
+
 static bool set_counts(const struct options *o, struct training *t)
 {
     const int seed = options_whole(o->seed, 1);
@@ -89,12 +99,14 @@ static bool set_counts(const struct options *o, struct training *t)
     t->def.folds = options_whole(o->folds, t->def.folds);
     t->def.data.samples_max = options_whole(o->samples, t->def.data.samples_max);
     t->def.data.anchors = options_whole(o->anchors, t->def.data.anchors);
+    t->def.train.symmetric = o->symmetric;
     t->def.train.seed = t->def.data.seed = (uint64_t)(seed < 0 ? 0 : seed);
     return in_range("--seed", seed, 0, 1000000) &&
            in_range("--members", t->def.members, 1, ENSEMBLE_MEMBERS_MAX) &&
            (t->def.folds == 0 || in_range("--folds", t->def.folds, 2, TRAINING_FOLDS_MAX)) &&
            in_range("--samples", t->def.data.samples_max, 1, FLOW_SAMPLES_MAX) &&
-           in_range("--anchors", t->def.data.anchors, 0, FLOW_SAMPLES_MAX);
+           in_range("--anchors", t->def.data.anchors, 0, FLOW_SAMPLES_MAX) &&
+           set_balance(o->balance, t);
 }
 
 static bool set_name(const char *name, struct network_def *net)
@@ -112,6 +124,7 @@ static bool check(struct training *t)
 {
     train_def_check(&t->def.train, t->def.network.n_hidden * t->def.members, t->problems);
     network_def_check_frame(&t->def.network, "", t->problems);
+    training_def_check_parts(&t->def, "", t->problems);
     if (t->problems->total > 0) {
         report_failures(stderr, "train", t->problems);
     }

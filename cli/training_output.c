@@ -105,6 +105,9 @@ static char *provenance(const struct training *t)
     json_key_string(&out, "optimiser", train_optimiser_name(t->def.train.optimiser));
     json_key_integer(&out, "seed", (long long)t->def.train.seed);
     json_key_number(&out, "decay", t->def.train.decay);
+    json_key_number(&out, "balance", t->def.data.balance);
+    json_key(&out, "symmetric");
+    json_boolean(&out, t->def.train.symmetric);
     write_members(t, &out);
     write_names(t, false, "records_trained", &out);
     write_names(t, true, "records_held", &out);

@@ -68,11 +68,12 @@ static enum status room(int n, struct sample_set *s)
 {
     s->x = malloc((size_t)n * NET_IN_COUNT * sizeof *s->x);
     s->y = malloc((size_t)n * NET_OUT_COUNT * sizeof *s->y);
-    return s->x != NULL && s->y != NULL ? ST_OK : ST_NO_MEMORY;
+    s->weight = malloc((size_t)n * sizeof *s->weight);
+    return s->x != NULL && s->y != NULL && s->weight != NULL ? ST_OK : ST_NO_MEMORY;
 }
 
 /* A sample and its mirror image. */
-static void put(const double *x, const double *y, struct sample_set *s)
+static void put(const double *x, const double *y, double weight, struct sample_set *s)
 {
     static const double mirrored[NET_OUT_COUNT] = {
         [NET_OUT_CL] = -1.0, [NET_OUT_CM] = -1.0, [NET_OUT_CD] = 1.0};
@@ -85,12 +86,64 @@ static void put(const double *x, const double *y, struct sample_set *s)
         for (int o = 0; o < NET_OUT_COUNT; o++) {
             increment[o] = side == 0 ? y[o] : mirrored[o] * y[o];
         }
+        s->weight[s->n] = weight;
         s->n++;
     }
 }
 
+/* Sums of the squares of the ranges of c_l and c_m behind the start. */
+static void add_ranges(const struct flow_record *r, double square[2])
+{
+    static const enum flow_row row[2] = {FLOW_CL, FLOW_CM};
+    const int first = flow_record_first(r);
+    for (int o = 0; o < 2; o++) {
+        const double *v = r->value + num_at(0, (int)row[o], r->n);
+        double least = v[first], most = v[first];
+        for (int i = first; i < r->n; i++) {
+            least = fmin(least, v[i]);
+            most = fmax(most, v[i]);
+        }
+        square[o] += num_sq(most - least);
+    }
+}
+
+/* Weight of each record, not yet one in the mean. */
+static void weigh(const struct dataset_def *def, int n_record, const struct flow_record *record,
+                  double *weight)
+{
+    double all[2] = {0.0};
+    int moving = 0;
+    for (int i = 0; i < n_record; i++) {
+        if (flow_record_moves(&record[i])) {
+            add_ranges(&record[i], all);
+            moving++;
+        }
+    }
+    for (int i = 0; i < n_record; i++) {
+        double own[2] = {0.0}, size = 0.0;
+        add_ranges(&record[i], own);
+        for (int o = 0; o < 2; o++) {
+            size += all[o] > 0.0 ? 0.5 * moving * own[o] / all[o] : 0.0;
+        }
+        size = flow_record_moves(&record[i]) ? size : 1.0; /* small, but nothing to measure by */
+        weight[i] = def->balance > 0.0 ? 1.0 / (size + num_sq(def->balance)) : 1.0;
+    }
+}
+
+static void level(struct sample_set *s)
+{
+    double sum = 0.0;
+    for (int k = 0; k < s->n; k++) {
+        sum += s->weight[k];
+    }
+    for (int k = 0; k < s->n; k++) {
+        s->weight[k] *= s->n / sum;
+    }
+}
+
 static enum status add_record(const struct dataset_def *def, const struct polar *polar,
-                              const struct flow_record *r, bool held, struct dataset *d)
+                              const struct flow_record *r, bool held, double weight,
+                              struct dataset *d)
 {
     double *x = malloc((size_t)r->n * (NET_IN_COUNT + NET_OUT_COUNT) * sizeof *x);
     if (x == NULL) {
@@ -106,7 +159,7 @@ static enum status add_record(const struct dataset_def *def, const struct polar 
         const double *in = x + num_at(0, i, NET_IN_COUNT);
         const double alpha = in[NET_IN_ALPHA];
         d->outside_polar += polar_at(polar, alpha, r->value[num_at(i, FLOW_W, r->n)]).outside;
-        put(in, y + num_at(0, i, NET_OUT_COUNT), held ? &d->held : &d->trained);
+        put(in, y + num_at(0, i, NET_OUT_COUNT), weight, held ? &d->held : &d->trained);
     }
     free(x);
     return st;
@@ -127,7 +180,7 @@ static enum status add_anchors(const struct dataset_def *def, const struct polar
         const double y[NET_OUT_COUNT] = {0.0};
         (void)moving_section_step(&section, &at, true);
         section.input[NET_IN_MEAN_ALPHA] = at.theta;
-        put(section.input, y, s);
+        put(section.input, y, 1.0, s);
     }
     moving_section_done(&section);
     return st;
@@ -137,14 +190,21 @@ static enum status add_records(const struct dataset_def *def, int n_record,
                                const struct flow_record *record, struct dataset *d)
 {
     struct polar *polar = NULL;
-    enum status st = polar_create(def->polar, &polar);
+    double *weight = malloc((size_t)n_record * sizeof *weight);
+    enum status st = weight != NULL ? polar_create(def->polar, &polar) : ST_NO_MEMORY;
+    if (st == ST_OK) {
+        weigh(def, n_record, record, weight);
+    }
     for (int i = 0; i < n_record && st == ST_OK; i++) {
-        st = add_record(def, polar, &record[i], d->is_held[i], d);
+        st = add_record(def, polar, &record[i], d->is_held[i], weight[i], d);
     }
     if (st == ST_OK) {
+        level(&d->trained);
+        level(&d->held);
         st = add_anchors(def, polar, &d->trained);
     }
     polar_destroy(polar);
+    free(weight);
     return st;
 }
 
@@ -186,8 +246,10 @@ void dataset_done(struct dataset *d)
 {
     free(d->trained.x);
     free(d->trained.y);
+    free(d->trained.weight);
     free(d->held.x);
     free(d->held.y);
+    free(d->held.weight);
     free(d->is_held);
     *d = (struct dataset){0};
 }

@@ -76,18 +76,23 @@ struct dataset_def {
     int samples_max;               /* of one record, equally spaced, so that records count alike */
     int anchors;                   /* samples of steady flow, see below */
     double held_share;             /* of the moving records, 0 < share < 1 */
-    uint64_t seed;                 /* of the draw */
+    /* With r the range of a record's c_l and c_m by those of all (rms), its samples weigh as
+     * 1/(r^2 + balance^2): errors count by the range of their record, but for records smaller than
+     * that. 0: all alike. */
+    double balance;
+    uint64_t seed; /* of the draw */
 };
-/* On the polar, no lags, window 12.5 (the first bending of the paper's beam), 500 samples and
- * anchors, a tenth held out, seed 1. */
+/* On the polar, no lags, no balance, window 12.5 (the first bending of the paper's beam), 500
+ * samples and anchors, a tenth held out, seed 1. */
 void dataset_def_defaults(struct dataset_def *def);
 
 /* Samples of one part of the records. Each stands twice, as it is and mirrored: angles, rates,
  * c_l and c_m change sign together, c_d does not. */
 struct sample_set {
     int n;
-    double *x; /* (NET_IN_COUNT x n), input fastest */
-    double *y; /* dynamic increments (NET_OUT_COUNT x n) */
+    double *x;      /* (NET_IN_COUNT x n), input fastest */
+    double *y;      /* dynamic increments (NET_OUT_COUNT x n) */
+    double *weight; /* (n), one in the mean */
 };
 struct dataset {
     struct sample_set trained, held;

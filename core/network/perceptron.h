@@ -3,17 +3,21 @@
  * vector p, in scaled inputs and outputs. Evaluation, normal equations and gradient.
  *
  * Order of p: w1 (n_in x n_hidden), b1 (n_hidden), w2 (n_hidden x n_out), b2 (n_out), the arrays of
- * struct network_def one after the other. Samples: x (n_in x n), t (n_out x n). Free of state;
- * nothing allocates. */
+ * struct network_def one after the other. Samples: x (n_in x n), t (n_out x n), weights w (n) of a
+ * mean of one, NULL for all alike. Free of state; nothing allocates. */
 #ifndef AEROM_CORE_NETWORK_PERCEPTRON_H
 #define AEROM_CORE_NETWORK_PERCEPTRON_H
 
 #include "core/limits.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 struct perceptron {
     int n_in, n_hidden, n_out; /* 1..LIMIT_NET_INPUTS, _HIDDEN, _OUTPUTS */
+    /* Each neuron is a pair, tanh(w1 x + b1) + tanh(w1 x - b1), and there is no b2: an odd function
+     * of x whatever the weights, as c_l and c_m of a section with two equal faces are. */
+    bool paired;
 };
 
 /* Length of p. */
@@ -23,30 +27,32 @@ int perceptron_count(const struct perceptron *s);
  * biases that spread the neurons over it. The same seed gives the same bits. */
 void perceptron_start(const struct perceptron *s, uint64_t seed, double *p);
 
-/* One sample: hidden (LIMIT_NET_HIDDEN) receives tanh(w1 x + b1), y (n_out) the outputs. */
+/* One sample: hidden (LIMIT_NET_HIDDEN) receives what the neurons give, y (n_out) the outputs. */
 void perceptron_eval(const struct perceptron *s, const double *p, const double *x, double *hidden,
                      double *y);
 
-/* Mean square of y - t over samples and outputs. */
+/* Weighted mean square of y - t over samples and outputs. */
 double perceptron_error(const struct perceptron *s, const double *p, int n, const double *x,
-                        const double *t);
+                        const double *t, const double *w);
 
-/* Length of what the derivatives of one sample are made of: with d = 1 - hidden^2, the products d x
- * of each neuron and input, then d, hidden, and one, filled up with zeros to whole lanes. The
- * derivatives of output o by the hidden layer are the first two times w2, those by its own w2 and
- * b2 the last two: all outputs share them. */
+/* Length of what the derivatives of one sample are made of: with d = 1 - tanh^2 the products d x of
+ * each neuron and input, then d, the neurons, and one unless they are pairs, filled up with zeros
+ * to whole lanes; of a pair the d of both, by the bias their difference. The derivatives of output
+ * o by the hidden layer are the first two times w2, those by its own w2 and b2 the last two: all
+ * outputs share them. */
 int perceptron_basis_rows(const struct perceptron *s);
 /* The basis of n samples, z (basis rows x n), and their residuals y - t, output by output: e
- * (n x n_out). */
+ * (n x n_out); both times the root of the weight. */
 void perceptron_basis(const struct perceptron *s, const double *p, int n, const double *x,
-                      const double *t, double *e, double *z);
+                      const double *t, const double *w, double *e, double *z);
 /* From zz = z z' (basis rows x basis rows, lower triangle) and ze = z e (basis rows x n_out),
  * summed over all samples: J'J (count x count, lower triangle) and J'e (count). */
 void perceptron_normal(const struct perceptron *s, const double *p, const double *zz,
                        const double *ze, double *gram, double *slope);
 
-/* g (count) += derivative of half the sum of squares of the residuals of one sample. */
+/* g (count) += weight times the derivative of half the sum of squares of the residuals of one
+ * sample. */
 void perceptron_gradient_add(const struct perceptron *s, const double *p, const double *x,
-                             const double *t, double *g);
+                             const double *t, double weight, double *g);
 
 #endif

@@ -92,8 +92,8 @@ bool train_is_cancelled(const struct sim_control *control, int epoch, int epochs
 bool train_note(const struct train_problem *problem, const struct train_def *def, double trained,
                 const double *p, double *best, struct train_curve *curve)
 {
-    const double held =
-        perceptron_error(&problem->shape, p, problem->n_held, problem->held_x, problem->held_t);
+    const double held = perceptron_error(&problem->shape, p, problem->n_held, problem->held_x,
+                                         problem->held_t, problem->held_w);
     const bool ended = train_curve_add(curve, def->patience, trained, held);
     if (curve->best == curve->n - 1) {
         memcpy(best, p, (size_t)perceptron_count(&problem->shape) * sizeof *best);
@@ -101,43 +101,60 @@ bool train_note(const struct train_problem *problem, const struct train_def *def
     return ended;
 }
 
-/* Rows of the net's inputs and outputs out of the samples, scaled: x, then t behind it, which is
- * returned. */
-static double *scale(const struct sample_set *s, const struct network_def *net, double *x)
+/* Samples of a problem in the making. */
+struct scaled {
+    int n;
+    double *x, *t, *w;
+};
+
+/* Every `stride`-th sample, the rows of the net's inputs and outputs, scaled; into the block at
+ * `next`, which moves on. */
+static struct scaled scale(const struct sample_set *s, const struct network_def *net, int stride,
+                           double **next)
 {
-    double *t = x + (ptrdiff_t)s->n * net->n_in;
-    for (int k = 0; k < s->n; k++) {
+    struct scaled out = {.n = (s->n + stride - 1) / stride, .x = *next};
+    out.t = out.x + (ptrdiff_t)out.n * net->n_in;
+    out.w = out.t + (ptrdiff_t)out.n * net->n_out;
+    *next = out.w + out.n;
+    for (int k = 0; k < out.n; k++) {
         for (int i = 0; i < net->n_in; i++) {
-            const double v = s->x[num_at((int)net->input[i], k, NET_IN_COUNT)];
-            x[num_at(i, k, net->n_in)] = (v - net->in_offset[i]) / net->in_scale[i];
+            const double v = s->x[num_at((int)net->input[i], k * stride, NET_IN_COUNT)];
+            out.x[num_at(i, k, net->n_in)] = (v - net->in_offset[i]) / net->in_scale[i];
         }
         for (int o = 0; o < net->n_out; o++) {
-            const double v = s->y[num_at((int)net->output[o], k, NET_OUT_COUNT)];
-            t[num_at(o, k, net->n_out)] = (v - net->out_offset[o]) / net->out_scale[o];
+            const double v = s->y[num_at((int)net->output[o], k * stride, NET_OUT_COUNT)];
+            out.t[num_at(o, k, net->n_out)] = (v - net->out_offset[o]) / net->out_scale[o];
         }
+        out.w[k] = s->weight[k * stride];
     }
-    return t;
+    return out;
 }
 
 enum status train_problem_init(const struct dataset *data, const struct network_def *net,
-                               struct train_problem *p)
+                               bool symmetric, struct train_problem *p)
 {
-    const size_t rows = (size_t)(net->n_in + net->n_out);
-    const size_t n_trained = (size_t)data->trained.n, n_held = (size_t)data->held.n;
-    double *trained = malloc((n_trained + n_held) * rows * sizeof *trained);
-    if (trained == NULL) {
+    const size_t rows = (size_t)(net->n_in + net->n_out + 1);
+    double *block = malloc((size_t)(data->trained.n + data->held.n) * rows * sizeof *block);
+    if (block == NULL) {
         return ST_NO_MEMORY;
     }
-    double *held = trained + n_trained * rows;
-    *p = (struct train_problem){
-        .shape = {.n_in = net->n_in, .n_hidden = net->n_hidden, .n_out = net->n_out},
-        .n_trained = data->trained.n,
-        .n_held = data->held.n,
-        .trained_x = trained,
-        .trained_t = scale(&data->trained, net, trained),
-        .held_x = held,
-        .held_t = scale(&data->held, net, held),
-        .block = trained};
+    double *next = block;
+    const int stride = symmetric ? 2 : 1; /* what is odd anyway needs no mirror images */
+    const struct scaled trained = scale(&data->trained, net, stride, &next);
+    const struct scaled held = scale(&data->held, net, stride, &next);
+    *p = (struct train_problem){.shape = {.n_in = net->n_in,
+                                          .n_hidden = net->n_hidden / stride,
+                                          .n_out = net->n_out,
+                                          .paired = symmetric},
+                                .n_trained = trained.n,
+                                .n_held = held.n,
+                                .trained_x = trained.x,
+                                .trained_t = trained.t,
+                                .trained_w = trained.w,
+                                .held_x = held.x,
+                                .held_t = held.t,
+                                .held_w = held.w,
+                                .block = block};
     return ST_OK;
 }
 
@@ -147,9 +164,29 @@ void train_problem_done(struct train_problem *p)
     *p = (struct train_problem){.n_trained = 0};
 }
 
-/* The vector of parameters into the arrays of the network. */
-static enum status take_weights(const double *p, struct network_def *net)
+/* The neurons of p, a pair as two neurons, into the arrays of the network. */
+static void write_neurons(const struct perceptron *shape, const double *p, struct network_def *net)
 {
+    const int n_in = shape->n_in, n = shape->n_hidden, sides = shape->paired ? 2 : 1;
+    const double *b1 = p + num_at(0, n, n_in), *w2 = b1 + n;
+    for (int k = 0; k < n * sides; k++) {
+        const int j = k / sides;
+        memcpy(net->w1 + num_at(0, k, n_in), p + num_at(0, j, n_in),
+               (size_t)n_in * sizeof *net->w1);
+        net->b1[k] = k % sides == 0 ? b1[j] : -b1[j];
+        for (int o = 0; o < shape->n_out; o++) {
+            net->w2[num_at(k, o, n * sides)] = w2[num_at(j, o, n)];
+        }
+    }
+    for (int o = 0; o < shape->n_out; o++) {
+        net->b2[o] = shape->paired ? 0.0 : w2[num_at(o, shape->n_out, n)];
+    }
+}
+
+static enum status take_weights(const struct perceptron *shape, const double *p,
+                                struct network_def *net)
+{
+    net->n_hidden = shape->n_hidden * (shape->paired ? 2 : 1);
     const int size[4] = {net->n_in * net->n_hidden, net->n_hidden, net->n_hidden * net->n_out,
                          net->n_out};
     double **const array[4] = {&net->w1, &net->b1, &net->w2, &net->b2};
@@ -159,9 +196,8 @@ static enum status take_weights(const double *p, struct network_def *net)
             network_def_done(net);
             return ST_NO_MEMORY;
         }
-        memcpy(*array[k], p, (size_t)size[k] * sizeof *p);
-        p += size[k];
     }
+    write_neurons(shape, p, net);
     return ST_OK;
 }
 
@@ -179,7 +215,8 @@ static enum status optimise(const struct train_problem *problem, const struct tr
         st = def->optimiser == TRAIN_LM ? train_lm(problem, def, control, p, best, &c)
                                         : train_adam(problem, def, control, p, best, &c);
         if (st == ST_OK) {
-            st = num_all_finite((int)count, best) ? take_weights(best, net) : ST_NOT_FINITE;
+            st = num_all_finite((int)count, best) ? take_weights(&problem->shape, best, net)
+                                                  : ST_NOT_FINITE;
         }
     }
     if (st == ST_OK) {
@@ -201,7 +238,7 @@ enum status train_network(const struct dataset *data, const struct train_def *de
         return ST_INVALID;
     }
     struct train_problem problem;
-    enum status st = train_problem_init(data, net, &problem);
+    enum status st = train_problem_init(data, net, def->symmetric, &problem);
     if (st == ST_OK) {
         st = optimise(&problem, def, control, net, curve);
         train_problem_done(&problem);

@@ -2,7 +2,8 @@
  * Training of a network on a dataset (App. B): scaling, random start, one of two optimisers, early
  * stopping on the records held out.
  *
- * One thread a training. The same dataset, definition and BLAS give the same bits. */
+ * One thread a training. The same dataset and definition give the same bits, as far as the Cholesky
+ * factors of the BLAS do. */
 #ifndef AEROM_CORE_NETWORK_TRAIN_H
 #define AEROM_CORE_NETWORK_TRAIN_H
 
@@ -24,6 +25,9 @@ struct train_def {
     double rate;   /* Adam: step length, > 0 */
     int batch;     /* Adam: samples a step */
     uint64_t seed; /* of the start, and of the order of the samples */
+    /* The network is odd by construction (perceptron.h): half as many samples and parameters for as
+     * many neurons, which must be even; for outputs c_l and c_m alone. */
+    bool symmetric;
 };
 enum { TRAIN_EPOCHS_MAX = 100000 };
 
@@ -46,17 +50,18 @@ void train_curve_done(struct train_curve *c);
  * the patience has run out. */
 bool train_curve_add(struct train_curve *c, int patience, double trained, double held);
 
-/* What an optimiser works on: scaled samples, x (n_in x n) and t (n_out x n). */
+/* What an optimiser works on: scaled samples, x (n_in x n) and t (n_out x n), and their weights. */
 struct train_problem {
     struct perceptron shape;
     int n_trained, n_held;
     const double *trained_x, *trained_t, *held_x, *held_t;
-    double *block; /* holds these when train_problem_init has made them, owned */
+    const double *trained_w, *held_w; /* (n); NULL: all alike */
+    double *block;                    /* holds these when train_problem_init has made them, owned */
 };
-/* From a dataset and a network whose inputs, outputs, n_hidden and scaling are set. ST_NO_MEMORY.
- */
+/* From a dataset, whose weights it borrows, and a network whose inputs, outputs, n_hidden and
+ * scaling are set. ST_NO_MEMORY. */
 MUST_CHECK enum status train_problem_init(const struct dataset *data, const struct network_def *net,
-                                          struct train_problem *p);
+                                          bool symmetric, struct train_problem *p);
 /* Accepts a zeroed struct. */
 void train_problem_done(struct train_problem *p);
 

@@ -16,7 +16,8 @@ static void gradient(const struct train_problem *t, int n, const int *sample, co
     memset(g, 0, (size_t)count * sizeof *g);
     for (int i = 0; i < n; i++) {
         perceptron_gradient_add(&t->shape, p, t->trained_x + num_at(0, sample[i], t->shape.n_in),
-                                t->trained_t + num_at(0, sample[i], t->shape.n_out), g);
+                                t->trained_t + num_at(0, sample[i], t->shape.n_out),
+                                t->trained_w != NULL ? t->trained_w[sample[i]] : 1.0, g);
     }
     for (int i = 0; i < count; i++) {
         g[i] *= factor;
@@ -39,8 +40,8 @@ static enum status run(const struct train_problem *problem, const struct train_d
             gradient(problem, n - first < def->batch ? n - first : def->batch, order + first, p, g);
             adam_step(adam, g, p);
         }
-        const double error =
-            perceptron_error(&problem->shape, p, n, problem->trained_x, problem->trained_t);
+        const double error = perceptron_error(&problem->shape, p, n, problem->trained_x,
+                                              problem->trained_t, problem->trained_w);
         ended = train_note(problem, def, error, p, best, curve);
         st = !isfinite(error)                                  ? ST_NOT_FINITE
              : train_is_cancelled(control, epoch, def->epochs) ? ST_CANCELLED

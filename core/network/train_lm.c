@@ -76,8 +76,9 @@ static struct objective with_decay(const struct lm *s, double error, const doubl
 static struct objective objective_at(const struct lm *s, const double *p)
 {
     const struct train_problem *t = s->problem;
-    return with_decay(s, perceptron_error(&t->shape, p, t->n_trained, t->trained_x, t->trained_t),
-                      p);
+    const double error =
+        perceptron_error(&t->shape, p, t->n_trained, t->trained_x, t->trained_t, t->trained_w);
+    return with_decay(s, error, p);
 }
 
 /* J'J and J'e over all samples, divided by the number of residuals. */
@@ -90,7 +91,8 @@ static void normal_equations(struct lm *s, const double *p)
     for (int first = 0; first < t->n_trained; first += BLOCK) {
         const int n = t->n_trained - first < BLOCK ? t->n_trained - first : BLOCK;
         perceptron_basis(&t->shape, p, n, t->trained_x + num_at(0, first, t->shape.n_in),
-                         t->trained_t + num_at(0, first, n_out), s->e, s->z);
+                         t->trained_t + num_at(0, first, n_out),
+                         t->trained_w != NULL ? t->trained_w + first : NULL, s->e, s->z);
         s->gram_add(rows, n, s->z, s->zz);
         for (int o = 0; o < n_out; o++) {
             la_multiply_add(rows, n, s->z, s->e + num_at(0, o, n), s->ze + num_at(0, o, rows));

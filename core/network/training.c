@@ -1,7 +1,9 @@
 #include "core/network/training.h"
 
 #include "core/random.h"
+#include "core/range.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,6 +19,25 @@ void training_def_defaults(struct training_def *def)
                                           .output = {NET_OUT_CL, NET_OUT_CM}}};
     dataset_def_defaults(&def->data);
     train_def_defaults(TRAIN_LM, &def->train);
+}
+
+void training_def_check_parts(const struct training_def *def, const char *pointer,
+                              struct failure_list *out)
+{
+    char where[160];
+    if (def->train.symmetric && def->network.n_hidden % 2 != 0) {
+        (void)snprintf(where, sizeof where, "%s/hidden", pointer);
+        range_refuse(out, where, "an even number of neurons, which are pairs when symmetric",
+                     def->network.n_hidden);
+    }
+    for (int o = 0; def->train.symmetric && o < def->network.n_out; o++) {
+        if (def->network.output[o] == NET_OUT_CD) {
+            (void)snprintf(where, sizeof where, "%s/symmetric", pointer);
+            failure_set(failure_add(out), ST_INVALID, where, "contradiction",
+                        "outputs cl and cm alone", "cd",
+                        "drag is the same in the mirrored motion: a symmetric network has no cd");
+        }
+    }
 }
 
 /* Errors of a network on the records that are marked; which NULL: on all. */

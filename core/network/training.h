@@ -34,6 +34,11 @@ struct training_result {
  * one member of 50 neurons. */
 void training_def_defaults(struct training_def *def);
 
+/* Appends what symmetry, neurons and outputs say together; pointers are those of the members
+ * of `training` behind `pointer`. */
+void training_def_check_parts(const struct training_def *def, const char *pointer,
+                              struct failure_list *out);
+
 /* Deals the records that move out to the folds of a cross-validation, in an order drawn from the
  * seed: fold (n_record), 0..folds - 1, or -1 for a record at rest. */
 void training_deal(uint64_t seed, int folds, int n_record, const struct flow_record *record,

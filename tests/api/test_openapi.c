@@ -192,6 +192,9 @@ static void check_field(const struct fixture *f, const cJSON *s, const struct fi
             check_names(s, t->names, t->key);
         }
         break;
+    case FIELD_BOOLEAN:
+        assert_string_equal(get(s, "type")->valuestring, "boolean");
+        break;
     case FIELD_TEXT:
         expect_number(s, "maxLength", true, (double)t->size - 1.0, t->key);
         expect_number(s, "minLength", t->required, 1, t->key);

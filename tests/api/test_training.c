@@ -195,6 +195,14 @@ static void test_refusals(void **state)
         {CASE(",\"members\":0"), "/training/members", "out_of_range"},
         {CASE(",\"folds\":1"), "/training/folds", "out_of_range"},
         {CASE(",\"members\":65"), "/training/members", "out_of_range"},
+        {CASE(",\"balance\":2"), "/training/balance", "out_of_range"},
+        {CASE(",\"symmetric\":1"), "/training/symmetric", "wrong_type"},
+        {CASE(",\"symmetric\":true"), "/training/hidden", "out_of_range"},
+        {"{\"schema_version\":1,\"kind\":\"training\",\"training\":{\"network\":\"odd\","
+         "\"dataset\":"
+         "\"plate-4pct\",\"polar\":\"plate-4pct-channel\",\"symmetric\":true,"
+         "\"outputs\":[\"cl\",\"cd\"]}}",
+         "/training/symmetric", "contradiction"},
         {"{\"schema_version\":1,\"kind\":\"training\",\"training\":{\"network\":\"big\","
          "\"dataset\":"
          "\"plate-4pct\",\"polar\":\"plate-4pct-channel\",\"hidden\":257,\"members\":2}}",

@@ -83,7 +83,7 @@ static enum status run(const struct dataset_def *def, const struct records *reco
     if (st == ST_OK) {
         struct train_problem problem;
         dataset_scaling(&data.trained, &net, problems);
-        st = train_problem_init(&data, &net, &problem);
+        st = train_problem_init(&data, &net, false, &problem);
         if (st == ST_OK) {
             st = train(&problem, path);
             train_problem_done(&problem);

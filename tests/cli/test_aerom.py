@@ -153,6 +153,18 @@ class Train(unittest.TestCase):
         self.assertIn("another polar", refused.stderr)
         self.assertEqual(aerom(*other, "--force").returncode, 0)
 
+    def test_a_symmetric_network_is_made_of_pairs(self):
+        result = self.train("--symmetric", "--hidden", 4, "--balance", 0.2, "--epochs", 10)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        document = json.loads(self.output.read_text())
+        self.assertEqual((document["hidden"], document["b2"]), (4, [0, 0]))
+        self.assertEqual(document["w1"][0::2], document["w1"][1::2])
+        self.assertEqual(document["b1"][0::2], [-b for b in document["b1"][1::2]])
+        self.assertEqual(document["input_offset"], [0] * 4)
+        self.assertEqual(document["hull_min"], [-h for h in document["hull_max"]])
+        self.assertEqual((document["provenance"]["symmetric"], document["provenance"]["balance"]),
+                         (True, 0.2))
+
     def test_adam_and_another_seed_make_another_network(self):
         texts = set()
         for arguments in (("--seed", 1), ("--seed", 2), ("--optimiser", "adam")):
@@ -172,6 +184,8 @@ class Train(unittest.TestCase):
                                 (("--lags", "1,2,3,4,5"), "--lags"), (("--lags", 0), "/lags_c_v/0"),
                                 (("--members", 0), "--members"), (("--folds", 1), "--folds"),
                                 (("--samples", 0), "--samples"), (("--anchors", -1), "--anchors"),
+                                (("--balance", 2), "--balance"),
+                                (("--symmetric", "--hidden", 5), "/hidden"),
                                 (("--inputs", "alpha_rate,alpha_rate"), "--inputs"),
                                 (("--inputs", "plunge_rate"), "plunge_rate")):
             with self.subTest(arguments=arguments):

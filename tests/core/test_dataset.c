@@ -223,6 +223,42 @@ static void increments_are_mirrored_and_records_stay_whole(void **state)
     free(list);
 }
 
+/* With a balance the samples of records weigh by what their ranges are: sixteen times the weight
+ * for a quarter of the range. Anchors weigh one, as all do in the mean. */
+static void samples_weigh_by_the_range_of_their_record(void **state)
+{
+    (void)state;
+    struct polar_def polar = fixture_linear_polar(slope, moment_slope, drag, 1.5);
+    struct flow_record record[4] = {sine("a", 0.1, 1.0), sine("b", 0.1, 1.0), sine("c", 0.1, 0.25),
+                                    sine("d", 0.1, 0.25)};
+    struct failure_list *list = calloc(1, sizeof *list);
+    struct dataset_def def;
+    struct dataset d = {0};
+    dataset_def_defaults(&def);
+    def.polar = &polar;
+    def.anchors = 10;
+    for (int balanced = 0; balanced < 2; balanced++) {
+        def.balance = balanced ? 1e-6 : 0.0;
+        assert_ok(dataset_build(&def, 4, record, list, &d));
+        const struct sample_set *s = &d.trained;
+        double sum = 0.0, least = s->weight[0], most = s->weight[0];
+        for (int k = 0; k < s->n - 2 * def.anchors; k++) {
+            sum += s->weight[k];
+            least = fmin(least, s->weight[k]);
+            most = fmax(most, s->weight[k]);
+        }
+        assert_near_rel(sum, s->n - 2.0 * def.anchors, 1e-12);
+        assert_near_rel(most / least, balanced ? 16.0 : 1.0, 1e-6);
+        assert_near_abs(s->weight[s->n - 1], 1.0, 0.0);
+        dataset_done(&d);
+    }
+    for (int i = 0; i < 4; i++) {
+        free(record[i].value);
+    }
+    polar_def_done(&polar);
+    free(list);
+}
+
 static void too_few_records_are_refused(void **state)
 {
     (void)state;
@@ -341,6 +377,7 @@ int main(void)
         cmocka_unit_test(the_mean_slides_over_the_window),
         cmocka_unit_test(every_fault_of_a_record_is_named),
         cmocka_unit_test(increments_are_mirrored_and_records_stay_whole),
+        cmocka_unit_test(samples_weigh_by_the_range_of_their_record),
         cmocka_unit_test(too_few_records_are_refused),
         cmocka_unit_test(a_network_learns_the_increment),
         cmocka_unit_test(a_constant_channel_is_refused),

@@ -27,105 +27,148 @@ static void random_vector(int n, uint64_t seed, double *x)
     }
 }
 
-enum { FEW = 5, ROWS = ((IN + 2) * HIDDEN + 1 + LANES - 1) / LANES * LANES };
+enum { FEW = 5, ROWS_MOST = ((IN + 2) * HIDDEN + 1 + LANES - 1) / LANES * LANES };
+
+static const struct perceptron pairs = {
+    .n_in = IN, .n_hidden = HIDDEN, .n_out = OUT, .paired = true};
+static const double weight[FEW] = {1.0, 0.25, 2.25, 1.0, 0.5};
 
 /* J'J and J'e of a few samples, by way of the basis. */
-static void normal(const double *p, const double *x, const double *t, double *gram, double *slope)
+static void normal(const struct perceptron *s, const double *p, const double *x, const double *t,
+                   const double *w, double *gram, double *slope)
 {
-    double e[FEW * OUT], z[ROWS * FEW], ze[ROWS * OUT] = {0.0};
-    double *zz = calloc((size_t)ROWS * ROWS, sizeof *zz);
-    assert_int_equal(perceptron_basis_rows(&shape), ROWS);
-    perceptron_basis(&shape, p, FEW, x, t, e, z);
+    const int rows = perceptron_basis_rows(s);
+    double e[FEW * OUT], z[ROWS_MOST * FEW], ze[ROWS_MOST * OUT] = {0.0};
+    double *zz = calloc((size_t)rows * (size_t)rows, sizeof *zz);
+    assert_in_range(rows, 1, ROWS_MOST);
+    perceptron_basis(s, p, FEW, x, t, w, e, z);
     for (int k = 0; k < FEW; k++) {
-        for (int c = 0; c < ROWS; c++) {
-            const double *row = z + num_at(0, k, ROWS);
-            for (int r = c; r < ROWS; r++) {
-                zz[num_at(r, c, ROWS)] += row[r] * row[c];
+        for (int c = 0; c < rows; c++) {
+            const double *row = z + num_at(0, k, rows);
+            for (int r = c; r < rows; r++) {
+                zz[num_at(r, c, rows)] += row[r] * row[c];
             }
             for (int o = 0; o < OUT; o++) {
-                ze[num_at(c, o, ROWS)] += row[c] * e[num_at(k, o, FEW)];
+                ze[num_at(c, o, rows)] += row[c] * e[num_at(k, o, FEW)];
             }
         }
     }
-    perceptron_normal(&shape, p, zz, ze, gram, slope);
+    perceptron_normal(s, p, zz, ze, gram, slope);
     free(zz);
 }
 
-/* y - t of all samples and outputs. */
-static void residuals(const double *p, const double *x, const double *t, double *e)
+/* y - t of all samples and outputs, times the roots of the weights. */
+static void residuals(const struct perceptron *s, const double *p, const double *x, const double *t,
+                      const double *w, double *e)
 {
     double hidden[HIDDEN];
     for (int k = 0; k < FEW; k++) {
-        perceptron_eval(&shape, p, x + num_at(0, k, IN), hidden, e + num_at(0, k, OUT));
+        perceptron_eval(s, p, x + num_at(0, k, IN), hidden, e + num_at(0, k, OUT));
         for (int o = 0; o < OUT; o++) {
             e[num_at(o, k, OUT)] -= t[num_at(o, k, OUT)];
+            e[num_at(o, k, OUT)] *= w != NULL ? sqrt(w[k]) : 1.0;
         }
     }
 }
 
-static void the_normal_equations_are_those_of_differences(void **state)
+static void normal_equations_are_those_of_differences(const struct perceptron *s, const double *w)
 {
-    (void)state;
     enum { M = FEW * OUT };
+    const int count = perceptron_count(s);
     double p[COUNT], x[IN * FEW], t[M], e[M], slope[COUNT], j[M * COUNT];
     double *gram = calloc((size_t)COUNT * COUNT, sizeof *gram);
-    assert_int_equal(perceptron_count(&shape), COUNT);
-    perceptron_start(&shape, 4, p);
+    perceptron_start(s, 4, p);
     random_vector(IN * FEW, 1, x);
     random_vector(M, 2, t);
-    residuals(p, x, t, e);
-    for (int i = 0; i < COUNT; i++) {
+    residuals(s, p, x, t, w, e);
+    for (int i = 0; i < count; i++) {
         const double h = 1e-6, keep = p[i];
         double up[M], down[M];
         p[i] = keep + h;
-        residuals(p, x, t, up);
+        residuals(s, p, x, t, w, up);
         p[i] = keep - h;
-        residuals(p, x, t, down);
+        residuals(s, p, x, t, w, down);
         p[i] = keep;
         for (int r = 0; r < M; r++) {
             j[num_at(r, i, M)] = (up[r] - down[r]) / (2.0 * h);
         }
     }
-    normal(p, x, t, gram, slope);
-    for (int c = 0; c < COUNT; c++) {
+    normal(s, p, x, t, w, gram, slope);
+    for (int c = 0; c < count; c++) {
         double sum = 0.0;
         for (int r = 0; r < M; r++) {
             sum += j[num_at(r, c, M)] * e[r];
         }
         assert_near_abs(slope[c], sum, 1e-7);
-        for (int i = c; i < COUNT; i++) {
+        for (int i = c; i < count; i++) {
             double product = 0.0;
             for (int r = 0; r < M; r++) {
                 product += j[num_at(r, i, M)] * j[num_at(r, c, M)];
             }
-            assert_near_abs(gram[num_at(i, c, COUNT)], product, 1e-7);
+            assert_near_abs(gram[num_at(i, c, count)], product, 1e-7);
         }
     }
     free(gram);
 }
 
-/* Half the gradient of the sum of squares is J'e. */
-static void the_gradient_is_that_of_the_normal_equations(void **state)
+static void the_normal_equations_are_those_of_differences(void **state)
 {
     (void)state;
+    assert_int_equal(perceptron_count(&shape), COUNT);
+    assert_int_equal(perceptron_count(&pairs), COUNT - OUT);
+    normal_equations_are_those_of_differences(&shape, NULL);
+    normal_equations_are_those_of_differences(&shape, weight);
+    normal_equations_are_those_of_differences(&pairs, weight);
+}
+
+/* Half the gradient of the sum of squares is J'e. */
+static void gradient_is_that_of_the_normal_equations(const struct perceptron *s, const double *w)
+{
     double p[COUNT], x[IN * FEW], t[OUT * FEW], e[OUT * FEW], slope[COUNT], g[COUNT] = {0.0};
     double *gram = calloc((size_t)COUNT * COUNT, sizeof *gram), squares = 0.0;
-    perceptron_start(&shape, 7, p);
+    perceptron_start(s, 7, p);
     random_vector(IN * FEW, 3, x);
     random_vector(OUT * FEW, 5, t);
-    normal(p, x, t, gram, slope);
+    normal(s, p, x, t, w, gram, slope);
     for (int k = 0; k < FEW; k++) {
-        perceptron_gradient_add(&shape, p, x + num_at(0, k, IN), t + num_at(0, k, OUT), g);
+        perceptron_gradient_add(s, p, x + num_at(0, k, IN), t + num_at(0, k, OUT),
+                                w != NULL ? w[k] : 1.0, g);
     }
-    for (int i = 0; i < COUNT; i++) {
+    for (int i = 0; i < perceptron_count(s); i++) {
         assert_near_abs(g[i], slope[i], 1e-12);
     }
-    residuals(p, x, t, e);
+    residuals(s, p, x, t, w, e);
     for (int r = 0; r < OUT * FEW; r++) {
         squares += num_sq(e[r]) / (OUT * FEW);
     }
-    assert_near_rel(perceptron_error(&shape, p, FEW, x, t), squares, 1e-13);
+    assert_near_rel(perceptron_error(s, p, FEW, x, t, w), squares, 1e-13);
     free(gram);
+}
+
+static void the_gradient_is_that_of_the_normal_equations(void **state)
+{
+    (void)state;
+    gradient_is_that_of_the_normal_equations(&shape, NULL);
+    gradient_is_that_of_the_normal_equations(&shape, weight);
+    gradient_is_that_of_the_normal_equations(&pairs, weight);
+}
+
+/* Pairs are odd to the bit, whatever their weights. */
+static void pairs_are_odd(void **state)
+{
+    (void)state;
+    double p[COUNT], x[2 * IN], y[2 * OUT], hidden[HIDDEN];
+    perceptron_start(&pairs, 11, p);
+    random_vector(IN, 12, x);
+    for (int i = 0; i < IN; i++) {
+        x[IN + i] = -x[i];
+    }
+    perceptron_eval(&pairs, p, x, hidden, y);
+    perceptron_eval(&pairs, p, x + IN, hidden, y + OUT);
+    for (int o = 0; o < OUT; o++) {
+        assert_true(fabs(y[o]) > 1e-3);
+        assert_near_abs(y[OUT + o], -y[o], 1e-15);
+    }
 }
 
 /* Samples of a known network. */
@@ -258,9 +301,9 @@ static void patience_ends_the_training(void **state)
                                 : train_adam(&k->problem, &def, NULL, p, best, &k->curve));
         assert_true(k->curve.n < def.epochs);
         assert_int_equal(k->curve.n - 1 - k->curve.best, 5);
-        assert_near_rel(
-            perceptron_error(&shape, best, k->problem.n_held, k->problem.held_x, k->problem.held_t),
-            k->curve.held[k->curve.best], 1e-14);
+        assert_near_rel(perceptron_error(&shape, best, k->problem.n_held, k->problem.held_x,
+                                         k->problem.held_t, NULL),
+                        k->curve.held[k->curve.best], 1e-14);
         known_free(k);
     }
 }
@@ -311,6 +354,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_normal_equations_are_those_of_differences),
         cmocka_unit_test(the_gradient_is_that_of_the_normal_equations),
+        cmocka_unit_test(pairs_are_odd),
         cmocka_unit_test(lm_recovers_a_known_network),
         cmocka_unit_test(the_decay_is_a_ridge),
         cmocka_unit_test(adam_learns_and_repeats_itself),
