@@ -200,7 +200,7 @@ def middle_speed(rows):
     return round(0.5 * (min(found) + max(found)), 2)
 
 
-def compute(service, model):
+def compute(service, model, aerom):
     dynamic = dict(results.MODELS)[model]
     grid = results.the_map(service, dynamic)
     studies = {name: results.boundary_study(service, [(cells.DYNAMIC, d)], results.BOUNDARY_ANGLES, results.STABLE)
@@ -216,9 +216,12 @@ def compute(service, model):
         row["more"] = False  # past flutter the mean plunge falls below it again: no news
     rows = [(name, results.boundaries(service, [(cells.DYNAMIC, dynamic), *changes], results.DESIGNS))
             for name, changes in results.SENSITIVITY]
+    trained = [rows[0]] + [
+        (name, results.boundaries(service, [(cells.DYNAMIC, dict(results.MODELS)["network"]), ("/networks", [network])],
+                                  results.DESIGNS)) for name, network in results.trained_again(aerom)]
     speeds = (cells.speed_of(results.MARKED_E_STAR), middle_speed(dict(curves)[model]))
     moments = {speed: results.marked(service, dynamic, speed) for speed in speeds}
-    return found, curves, moments, rows, results.convergence(service, dynamic)
+    return found, curves, moments, rows, trained, results.convergence(service, dynamic)
 
 
 def main():
@@ -228,13 +231,14 @@ def main():
     parser.add_argument("--model", default="network", choices=[name for name, _ in results.MODELS])
     arguments = parser.parse_args()
     with cells.Service(arguments.aeromd, arguments.workers) as service:
-        found, curves, moments, rows, converged = compute(service, arguments.model)
+        found, curves, moments, rows, trained, converged = compute(service, arguments.model,
+                                                                   Path(arguments.aeromd).with_name("aerom"))
     draw_means(found)
     draw_signals(moments)
     draw_loads(next(iter(moments.values())))
     draw_boundaries(curves)
     draw_convergence(converged)
-    tables = {"boundaries": boundary_table(curves), "sensitivity": sensitivity_table(rows),
+    tables = {"boundaries": boundary_table(curves), "sensitivity": sensitivity_table(rows), "trainings": sensitivity_table(trained),
               "convergence": convergence_table(converged), "modal": modal_table(moments),
               "rise": rise_table(found, curves, arguments.model)}
     page = TEXT.read_text(encoding="utf-8").replace("{model}", arguments.model)

@@ -1,5 +1,10 @@
 """The computations behind docs/PAPER.md: a plain tree of numbers. Python 3 standard library."""
 
+import json
+import subprocess
+import tempfile
+from pathlib import Path
+
 import cells
 from cells import ANGLE, DYNAMIC, SPEED
 
@@ -41,6 +46,14 @@ SENSITIVITY = (
     ("8 modes", (("/solver/modes", 8),)),
 )
 
+# The shipped network made again, otherwise: name, options of its script.
+TRAININGS = (
+    ("other random numbers", ("--seed", "101")),
+    ("and others", ("--seed", "201")),
+    ("odd by construction (`--symmetric`)", ("--symmetric",)),
+    ("records weigh by their range (`--balance 0.7`)", ("--balance", "0.7")),
+)
+
 # Name, pointer, values; the first is the paper's.
 CONVERGENCE = (
     ("elements", "/beam/elements", (16, 8, 32, 64)),
@@ -63,6 +76,16 @@ def boundary_study(service, changes, angles, criterion):
 def boundaries(service, changes, angles):
     """[{boundary, outcome, ...}] over the angles: where the verdict is stable no more."""
     return service.get(boundary_study(service, changes, angles, STABLE) + "/boundary")["rows"]
+
+
+def trained_again(aerom):
+    """(name, network) of the trainings, each half a minute."""
+    script = cells.ROOT / "data" / "networks" / "train_plate_4pct.sh"
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "network.json"
+        for name, options in TRAININGS:
+            subprocess.run([script, aerom, *options, "--output", path], check=True, stdout=subprocess.DEVNULL)
+            yield name, json.loads(path.read_text(encoding="utf-8"))
 
 
 def marked(service, dynamic, speed):
