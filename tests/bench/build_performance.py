@@ -163,7 +163,13 @@ def map_section(binary, files):
            "Wall-clock seconds were measured beside other work when the load is not about zero: then only the processor's count.", ""]
     out += table(("cells", "steps", "workers", "processor [s]", "of it in the cells [s]", "µs a step", "beside the cells", "wall [s]",
                   "load before"), rows)
-    return out + ["Beside the cells: models, content hashes, storing, HTTP.", ""]
+    cells = json.loads(run([sys.executable, BENCH / "bench_cells.py", "--bin", binary, "--json"]))
+    out += ["Beside the cells: models, content hashes, storing, HTTP. It hardly depends on what a cell computes, so that its share is small "
+            "for marches and large for cells of little work (`bench_cells.py`, one worker):", ""]
+    out += table(("kind", "cells", "a cell [ms]", "beside it [ms]", "share"),
+                 [(r["kind"], r["cells"], f"{r['own_ms']:.2f}", f"{r['beside_ms']:.2f}", f"{100 * r['beside_ms'] / r['own_ms']:.1f} %")
+                  for r in cells])
+    return out + [""]
 
 
 def paper_section(head):
@@ -177,7 +183,7 @@ def paper_section(head):
            f"{head['us_per_step']:.2f} µs a step, {own * head['steps']:.3f} s for 15,000 steps on one core.", ""]
     out += table(("the paper's", "s a step", "times this step", "a simulation", "times 15,000 steps here"), rows)
     return out + ["Their machines and the length of their simulations are others, so these are orders of magnitude. What the speed is "
-                  f"bought with: the flow computations behind polar and network, so far {len(records)} of two-dimensional flow and "
+                  f"bought with: the flow computations behind polar and network, {len(records)} of two-dimensional flow and "
                   f"{core:,.0f} core-seconds ({core / 3600:.1f} h, `data/cfd/index.csv`), once for all beams.", ""]
 
 
