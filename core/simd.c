@@ -1,6 +1,7 @@
 #include "core/simd.h"
 
 #include <assert.h>
+#include <string.h>
 
 enum simd_level simd_level_of_machine(void)
 {
