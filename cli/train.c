@@ -1,5 +1,6 @@
 #include "cli/train.h"
 
+#include "api/both_threads.h"
 #include "cli/command.h"
 #include "cli/report.h"
 #include "cli/training.h"
@@ -32,8 +33,9 @@ static bool succeed(struct training *t, enum status st, const char *what)
 /* The network moves on into the entry. */
 static enum status run(struct training *t)
 {
+    const struct sim_control control = {.both = both_threads};
     const enum status st =
-        training_run(&t->def, t->records.n, t->records.record, NULL, &t->result, t->problems);
+        training_run(&t->def, t->records.n, t->records.record, &control, &t->result, t->problems);
     t->entry.def = t->result.network;
     t->result.network = (struct network_def){.n_in = 0};
     return st;

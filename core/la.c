@@ -77,11 +77,6 @@ void la_cholesky_solve(int n, const double *factor, int n_rhs, double *b)
     assert(info == 0);
 }
 
-void la_multiply_add(int n, int k, const double *a, const double *x, double *y)
-{
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, k, 1.0, a, n, x, 1, 1.0, y, 1);
-}
-
 enum status la_inverse_work(int n, double *a, int *pivot, double *work)
 {
     _Static_assert(sizeof(lapack_int) == sizeof(int), "pivot arrays are plain int");

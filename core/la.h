@@ -28,9 +28,6 @@ MUST_CHECK enum status la_solve_least_size(int n, double *a, double rank_toleran
 MUST_CHECK enum status la_cholesky(int n, double *a);
 void la_cholesky_solve(int n, const double *factor, int n_rhs, double *b);
 
-/* y += a x; a (n x k). Allocates nothing. */
-void la_multiply_add(int n, int k, const double *a, const double *x, double *y);
-
 /* Inverts a (n x n) in place without allocating; pivot (n), work (n x n). */
 MUST_CHECK enum status la_inverse_work(int n, double *a, int *pivot, double *work);
 

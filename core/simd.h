@@ -47,9 +47,10 @@ static inline int simd_padded(int n)
 typedef void (*simd_gemv_fn)(int rows, int n, const double *a, const double *x, double *y);
 simd_gemv_fn simd_gemv(enum simd_level level);
 
-/* c += a a', at least in the lower triangle of c (n x n); a is (n x k), n a multiple of LANES. A
- * library's product would be as fast, where it knows the machine, but not of the same bits. */
-typedef void (*simd_gram_fn)(int n, int k, const double *a, double *c);
+/* c += a a', at least in the lower triangle of c (n x n); a is (n x k), n a multiple of LANES, work
+ * (n x k) is overwritten. A library's product would be as fast, where it knows the machine, but not
+ * of the same bits. */
+typedef void (*simd_gram_fn)(int n, int k, const double *a, double *work, double *c);
 simd_gram_fn simd_gram(enum simd_level level);
 
 #endif

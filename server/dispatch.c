@@ -1,5 +1,7 @@
 #include "server/dispatch.h"
 
+#include "api/both_threads.h"
+
 #include <assert.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -71,7 +73,8 @@ void dispatch_leave(struct dispatch *d, int slot)
 struct sim_control dispatch_control(struct dispatch *d, int slot)
 {
     return (struct sim_control){.cancel = &d->slot[slot].cancel,
-                                .progress = &d->slot[slot].progress};
+                                .progress = &d->slot[slot].progress,
+                                .both = d->n_slot > 1 ? both_threads : NULL};
 }
 
 /* Whether a slot runs a job, or a unit of it; the mutex is held. */

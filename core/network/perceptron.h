@@ -27,32 +27,27 @@ int perceptron_count(const struct perceptron *s);
  * biases that spread the neurons over it. The same seed gives the same bits. */
 void perceptron_start(const struct perceptron *s, uint64_t seed, double *p);
 
-/* One sample: hidden (LIMIT_NET_HIDDEN) receives what the neurons give, y (n_out) the outputs. */
-void perceptron_eval(const struct perceptron *s, const double *p, const double *x, double *hidden,
-                     double *y);
-
 /* Weighted mean square of y - t over samples and outputs. */
 double perceptron_error(const struct perceptron *s, const double *p, int n, const double *x,
                         const double *t, const double *w);
 
-/* Length of what the derivatives of one sample are made of: with d = 1 - tanh^2 the products d x of
- * each neuron and input, then d, the neurons, and one unless they are pairs, filled up with zeros
- * to whole lanes; of a pair the d of both, by the bias their difference. The derivatives of output
- * o by the hidden layer are the first two times w2, those by its own w2 and b2 the last two: all
- * outputs share them. */
+/* Length of what the derivatives and residuals of one sample are made of: with d = 1 - tanh^2 the
+ * products d x of each input and neuron, then d, the neurons, one unless they are pairs, and the
+ * residuals y - t, filled up with zeros to whole lanes; of a pair the d of both, by the bias their
+ * difference. The derivatives of output o by the hidden layer are the first two times w2, those by
+ * its own w2 and b2 the neurons and one: all outputs share them. */
 int perceptron_basis_rows(const struct perceptron *s);
-/* The basis of n samples, z (basis rows x n), and their residuals y - t, output by output: e
- * (n x n_out); both times the root of the weight. */
+/* The basis of n samples, z (basis rows x n), times the root of the weight. */
 void perceptron_basis(const struct perceptron *s, const double *p, int n, const double *x,
-                      const double *t, const double *w, double *e, double *z);
-/* From zz = z z' (basis rows x basis rows, lower triangle) and ze = z e (basis rows x n_out),
- * summed over all samples: J'J (count x count, lower triangle) and J'e (count). */
-void perceptron_normal(const struct perceptron *s, const double *p, const double *zz,
-                       const double *ze, double *gram, double *slope);
-
-/* g (count) += weight times the derivative of half the sum of squares of the residuals of one
- * sample. */
-void perceptron_gradient_add(const struct perceptron *s, const double *p, const double *x,
-                             const double *t, double weight, double *g);
+                      const double *t, const double *w, double *z);
+/* From zz = z z' (basis rows x basis rows, lower triangle), summed over samples: J'J (count x
+ * count, lower triangle). */
+void perceptron_normal(const struct perceptron *s, const double *p, const double *zz, double *gram);
+/* Row of the basis at which the n_out residuals begin. */
+int perceptron_residual_row(const struct perceptron *s);
+/* J'e (count), half the gradient of the sum of squares, from the products of the residuals with the
+ * rows before them, summed over samples: that of output o and row c is ze[o + c stride]. */
+void perceptron_slope(const struct perceptron *s, const double *p, int stride, const double *ze,
+                      double *slope);
 
 #endif

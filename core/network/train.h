@@ -2,8 +2,8 @@
  * Training of a network on a dataset (App. B): scaling, random start, one of two optimisers, early
  * stopping on the records held out.
  *
- * One thread a training. The same dataset and definition give the same bits, as far as the Cholesky
- * factors of the BLAS do. */
+ * The caller's thread, and with Levenberg-Marquardt a second one where the control lends it. The
+ * same dataset and definition give the same bits, as far as the Cholesky factors of the BLAS do. */
 #ifndef AEROM_CORE_NETWORK_TRAIN_H
 #define AEROM_CORE_NETWORK_TRAIN_H
 

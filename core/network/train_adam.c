@@ -7,26 +7,67 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Gradient of the mean square error of n samples into g. */
-static void gradient(const struct train_problem *t, int n, const int *sample, const double *p,
-                     double *g)
+/* One batch of samples, and what the gradient is made of; one block, at x. */
+struct batch {
+    double *x, *t, *w; /* (n_in, n_out, 1 x samples) */
+    double *z;         /* (basis rows x samples) */
+    double *ze;        /* (n_out x basis rows) */
+    double *g;         /* (count) */
+};
+
+static enum status batch_init(const struct perceptron *s, int n, struct batch *b)
 {
-    const int count = perceptron_count(&t->shape);
-    const double factor = 2.0 / ((double)n * t->shape.n_out);
-    memset(g, 0, (size_t)count * sizeof *g);
-    for (int i = 0; i < n; i++) {
-        perceptron_gradient_add(&t->shape, p, t->trained_x + num_at(0, sample[i], t->shape.n_in),
-                                t->trained_t + num_at(0, sample[i], t->shape.n_out),
-                                t->trained_w != NULL ? t->trained_w[sample[i]] : 1.0, g);
+    const size_t samples = (size_t)n, rows = (size_t)perceptron_basis_rows(s);
+    const size_t n_in = (size_t)s->n_in, n_out = (size_t)s->n_out;
+    b->x =
+        malloc((samples * (n_in + n_out + 1 + rows) + rows * n_out + (size_t)perceptron_count(s)) *
+               sizeof *b->x);
+    if (b->x == NULL) {
+        return ST_NO_MEMORY;
     }
+    b->t = b->x + samples * n_in;
+    b->w = b->t + samples * n_out;
+    b->z = b->w + samples;
+    b->ze = b->z + samples * rows;
+    b->g = b->ze + rows * n_out;
+    return ST_OK;
+}
+
+/* Gradient of the mean square error of n samples into b->g. */
+static void gradient(const struct train_problem *t, int n, const int *sample, const double *p,
+                     struct batch *b)
+{
+    const struct perceptron *s = &t->shape;
+    const int count = perceptron_count(s), rows = perceptron_basis_rows(s);
+    const int first = perceptron_residual_row(s);
+    const double factor = 2.0 / ((double)n * s->n_out);
+    for (int i = 0; i < n; i++) {
+        const int k = sample[i];
+        memcpy(b->x + num_at(0, i, s->n_in), t->trained_x + num_at(0, k, s->n_in),
+               (size_t)s->n_in * sizeof *b->x);
+        memcpy(b->t + num_at(0, i, s->n_out), t->trained_t + num_at(0, k, s->n_out),
+               (size_t)s->n_out * sizeof *b->t);
+        b->w[i] = t->trained_w != NULL ? t->trained_w[k] : 1.0;
+    }
+    perceptron_basis(s, p, n, b->x, b->t, b->w, b->z);
+    memset(b->ze, 0, (size_t)rows * (size_t)s->n_out * sizeof *b->ze);
+    for (int i = 0; i < n; i++) {
+        const double *z = b->z + num_at(0, i, rows);
+        for (int c = 0; c < first; c++) {
+            for (int o = 0; o < s->n_out; o++) {
+                b->ze[num_at(o, c, s->n_out)] += z[first + o] * z[c];
+            }
+        }
+    }
+    perceptron_slope(s, p, s->n_out, b->ze, b->g);
     for (int i = 0; i < count; i++) {
-        g[i] *= factor;
+        b->g[i] *= factor;
     }
 }
 
 static enum status run(const struct train_problem *problem, const struct train_def *def,
-                       const struct sim_control *control, struct adam *adam, int *order, double *g,
-                       double *p, double *best, struct train_curve *curve)
+                       const struct sim_control *control, struct adam *adam, int *order,
+                       struct batch *b, double *p, double *best, struct train_curve *curve)
 {
     const int n = problem->n_trained;
     uint64_t seed = ~def->seed; /* another sequence than that of the start */
@@ -37,8 +78,8 @@ static enum status run(const struct train_problem *problem, const struct train_d
             random_shuffle(n, &seed, order);
         }
         for (int first = 0; first < n && epoch > 0; first += def->batch) {
-            gradient(problem, n - first < def->batch ? n - first : def->batch, order + first, p, g);
-            adam_step(adam, g, p);
+            gradient(problem, n - first < def->batch ? n - first : def->batch, order + first, p, b);
+            adam_step(adam, b->g, p);
         }
         const double error = perceptron_error(&problem->shape, p, n, problem->trained_x,
                                               problem->trained_t, problem->trained_w);
@@ -57,17 +98,17 @@ enum status train_adam(const struct train_problem *problem, const struct train_d
     const int n = problem->n_trained, count = perceptron_count(&problem->shape);
     struct adam adam = {0};
     int *order = malloc((size_t)n * sizeof *order);
-    double *g = malloc((size_t)count * sizeof *g);
-    enum status st = order != NULL && g != NULL ? ST_OK : ST_NO_MEMORY;
+    struct batch batch = {.x = NULL};
+    enum status st = order != NULL ? batch_init(&problem->shape, def->batch, &batch) : ST_NO_MEMORY;
     st = st == ST_OK ? adam_init(count, def->rate, def->decay, &adam) : st;
     if (st == ST_OK) {
         for (int i = 0; i < n; i++) {
             order[i] = i;
         }
-        st = run(problem, def, control, &adam, order, g, p, best, curve);
+        st = run(problem, def, control, &adam, order, &batch, p, best, curve);
     }
     adam_done(&adam);
     free(order);
-    free(g);
+    free(batch.x);
     return st;
 }

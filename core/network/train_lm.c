@@ -15,9 +15,21 @@ static const double damping_factor = 10.0;
 /* Without progress from here on, relative to the objective. */
 static const double progress_least = 1e-12;
 
+/* Half of the samples: what is summed over each is added up at the end, so that two threads give
+ * the bits of one. */
+struct half {
+    const struct train_problem *problem;
+    int first, n;    /* samples */
+    const double *p; /* parameters of the sum under way */
+    double error;    /* their mean square */
+    double *z;       /* basis of one block (rows x BLOCK) */
+    double *work;    /* of its products (rows x BLOCK) */
+    double *zz;      /* z z' (rows x rows), lower triangle */
+};
+
 struct lm {
     const struct train_problem *problem;
-    simd_gram_fn gram_add;
+    const struct sim_control *control;
     int count;
     double weight; /* of the square of each parameter in the objective */
     double *gram;  /* J'J/m (count x count), lower */
@@ -25,38 +37,53 @@ struct lm {
     double *slope; /* half the gradient of the objective (count) */
     double *step;  /* (count) */
     double *trial; /* (count) */
-    double *z;     /* basis of one block (rows x BLOCK) */
-    double *e;     /* (BLOCK x n_out) */
-    double *zz;    /* z z' over all samples (rows x rows), lower */
-    double *ze;    /* z e (rows x n_out) */
+    struct half half[2];
 };
 
 static enum status lm_init(const struct train_problem *problem, const struct train_def *def,
-                           struct lm *s)
+                           const struct sim_control *control, struct lm *s)
 {
     const int count = perceptron_count(&problem->shape);
     const size_t n = (size_t)count, square = n * n;
     const size_t rows = (size_t)perceptron_basis_rows(&problem->shape);
-    const size_t n_out = (size_t)problem->shape.n_out;
-    double *block = malloc((2 * square + 3 * n + (rows + n_out) * BLOCK + rows * (rows + n_out)) *
-                           sizeof *block);
+    const size_t of_half = 2 * rows * BLOCK + rows * rows;
+    double *block = malloc((2 * square + 3 * n + 2 * of_half) * sizeof *block);
     if (block == NULL) {
         return ST_NO_MEMORY;
     }
     *s = (struct lm){.problem = problem,
-                     .gram_add = simd_gram(simd_level_of_machine()),
+                     .control = control,
                      .count = count,
                      .weight = def->decay / count,
                      .gram = block,
                      .a = block + square,
                      .slope = block + 2 * square,
                      .step = block + 2 * square + n,
-                     .trial = block + 2 * square + 2 * n,
-                     .z = block + 2 * square + 3 * n};
-    s->e = s->z + rows * BLOCK;
-    s->zz = s->e + n_out * BLOCK;
-    s->ze = s->zz + rows * rows;
+                     .trial = block + 2 * square + 2 * n};
+    for (int h = 0; h < 2; h++) {
+        double *own = block + 2 * square + 3 * n + (size_t)h * of_half;
+        const int middle = problem->n_trained / 2;
+        s->half[h] = (struct half){.problem = problem,
+                                   .first = h == 0 ? 0 : middle,
+                                   .n = h == 0 ? middle : problem->n_trained - middle,
+                                   .z = own,
+                                   .work = own + rows * BLOCK,
+                                   .zz = own + 2 * rows * BLOCK};
+    }
     return ST_OK;
+}
+
+/* Does the work on both halves, with the parameters p. */
+static void on_both(struct lm *s, void (*work)(void *), const double *p)
+{
+    s->half[0].p = s->half[1].p = p;
+    sim_control_both(s->control, work, &s->half[0], &s->half[1]);
+}
+
+/* The samples from `first` on; NULL: all weigh alike. */
+static const double *weights_from(const struct train_problem *t, int first)
+{
+    return t->trained_w != NULL ? t->trained_w + first : NULL;
 }
 
 /* Mean square error of the trained samples and what the decay adds to it. */
@@ -73,32 +100,56 @@ static struct objective with_decay(const struct lm *s, double error, const doubl
     return (struct objective){.error = error, .total = error + s->weight * sum};
 }
 
-static struct objective objective_at(const struct lm *s, const double *p)
+static void sum_errors(void *half)
 {
-    const struct train_problem *t = s->problem;
-    const double error =
-        perceptron_error(&t->shape, p, t->n_trained, t->trained_x, t->trained_t, t->trained_w);
-    return with_decay(s, error, p);
+    struct half *h = half;
+    const struct train_problem *t = h->problem;
+    h->error = h->n == 0 ? 0.0
+                         : perceptron_error(&t->shape, h->p, h->n,
+                                            t->trained_x + num_at(0, h->first, t->shape.n_in),
+                                            t->trained_t + num_at(0, h->first, t->shape.n_out),
+                                            weights_from(t, h->first));
+}
+
+static struct objective objective_at(struct lm *s, const double *p)
+{
+    on_both(s, sum_errors, p);
+    double sum = 0.0;
+    for (int h = 0; h < 2; h++) {
+        sum += s->half[h].error * s->half[h].n;
+    }
+    return with_decay(s, sum / s->problem->n_trained, p);
+}
+
+static void sum_products(void *half)
+{
+    const struct half *h = half;
+    const struct train_problem *t = h->problem;
+    const simd_gram_fn gram_add = simd_gram(simd_level_of_machine());
+    const int rows = perceptron_basis_rows(&t->shape);
+    memset(h->zz, 0, (size_t)rows * (size_t)rows * sizeof *h->zz);
+    for (int done = 0; done < h->n; done += BLOCK) {
+        const int first = h->first + done, n = h->n - done < BLOCK ? h->n - done : BLOCK;
+        perceptron_basis(&t->shape, h->p, n, t->trained_x + num_at(0, first, t->shape.n_in),
+                         t->trained_t + num_at(0, first, t->shape.n_out), weights_from(t, first),
+                         h->z);
+        gram_add(rows, n, h->z, h->work, h->zz);
+    }
 }
 
 /* J'J and J'e over all samples, divided by the number of residuals. */
 static void normal_equations(struct lm *s, const double *p)
 {
-    const struct train_problem *t = s->problem;
-    const int n_out = t->shape.n_out, rows = perceptron_basis_rows(&t->shape);
-    const double factor = 1.0 / ((double)t->n_trained * n_out);
-    memset(s->zz, 0, (size_t)rows * (size_t)(rows + n_out) * sizeof *s->zz); /* and ze */
-    for (int first = 0; first < t->n_trained; first += BLOCK) {
-        const int n = t->n_trained - first < BLOCK ? t->n_trained - first : BLOCK;
-        perceptron_basis(&t->shape, p, n, t->trained_x + num_at(0, first, t->shape.n_in),
-                         t->trained_t + num_at(0, first, n_out),
-                         t->trained_w != NULL ? t->trained_w + first : NULL, s->e, s->z);
-        s->gram_add(rows, n, s->z, s->zz);
-        for (int o = 0; o < n_out; o++) {
-            la_multiply_add(rows, n, s->z, s->e + num_at(0, o, n), s->ze + num_at(0, o, rows));
-        }
+    const struct perceptron *shape = &s->problem->shape;
+    const int rows = perceptron_basis_rows(shape);
+    const double factor = 1.0 / ((double)s->problem->n_trained * shape->n_out);
+    on_both(s, sum_products, p);
+    double *zz = s->half[0].zz;
+    for (ptrdiff_t i = 0; i < num_at(0, rows, rows); i++) {
+        zz[i] += s->half[1].zz[i];
     }
-    perceptron_normal(&t->shape, p, s->zz, s->ze, s->gram, s->slope);
+    perceptron_normal(shape, p, zz, s->gram);
+    perceptron_slope(shape, p, rows, zz + perceptron_residual_row(shape), s->slope);
     for (ptrdiff_t i = 0; i < num_at(0, s->count, s->count); i++) {
         s->gram[i] *= factor;
     }
@@ -152,7 +203,7 @@ enum status train_lm(const struct train_problem *problem, const struct train_def
 {
     struct lm s;
     double damping = damping_start;
-    enum status st = lm_init(problem, def, &s);
+    enum status st = lm_init(problem, def, control, &s);
     if (st != ST_OK) {
         return st;
     }

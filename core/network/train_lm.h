@@ -1,7 +1,8 @@
 /* core/network/train_lm.h
  * Levenberg-Marquardt training: damped Gauss-Newton steps on all samples, the normal equations
- * summed block by block and solved by Cholesky (Hagan & Menhaj 1994). One thread; memory of the
- * normal equations and one block is taken once. */
+ * summed block by block and solved by Cholesky (Hagan & Menhaj 1994). The samples are summed in two
+ * halves, on two threads where the control lends one; memory of the normal equations and one block
+ * of each half is taken once. */
 #ifndef AEROM_CORE_NETWORK_TRAIN_LM_H
 #define AEROM_CORE_NETWORK_TRAIN_LM_H
 

@@ -2,7 +2,7 @@
  * One whole training: from records to a network, its learning curves and its errors on every
  * record.
  *
- * One thread a training. */
+ * The caller's thread, and the one that the control lends (core/network/train.h). */
 #ifndef AEROM_CORE_NETWORK_TRAINING_H
 #define AEROM_CORE_NETWORK_TRAINING_H
 

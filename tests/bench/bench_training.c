@@ -4,8 +4,9 @@
  *     bench_training FOLDER FILE
  *
  * FILE receives, as doubles, the numbers of samples trained and held out and of parameters, then x
- * and t of the trained, of the held out, and the start. Standard output: seconds, then a line
- * `epoch trained held` each. */
+ * and t of the trained, of the held out, and the start. Standard output: seconds of the clock with
+ * one thread and with two, then a line `epoch trained held` each. */
+#include "api/both_threads.h"
 #include "cli/records.h"
 #include "cli/report.h"
 #include "cli/source.h"
@@ -20,7 +21,7 @@ enum { IN = 4, OUT = 2, HIDDEN = 50 };
 static double seconds(void)
 {
     struct timespec now;
-    (void)clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
@@ -56,10 +57,16 @@ static enum status train(const struct train_problem *problem, const char *path)
         perceptron_start(&problem->shape, def.seed, p);
         st = dump(path, problem, count, p) ? ST_OK : ST_INVALID;
     }
-    if (st == ST_OK) {
+    for (int threads = 1; threads <= 2 && st == ST_OK; threads++) {
+        const struct sim_control control = {.both = threads == 2 ? both_threads : NULL};
+        perceptron_start(&problem->shape, def.seed, p);
+        curve.n = 0;
         const double start = seconds();
-        st = train_lm(problem, &def, NULL, p, p + count, &curve);
-        (void)printf("%.4f\n", seconds() - start);
+        st = train_lm(problem, &def, &control, p, p + count, &curve);
+        (void)printf("%.4f ", seconds() - start);
+    }
+    if (st == ST_OK) {
+        (void)printf("\n");
         for (int i = 0; i < curve.n; i++) {
             (void)printf("%d %.12g %.12g\n", i, curve.trained[i], curve.held[i]);
         }

@@ -21,14 +21,14 @@ static void random_values(uint64_t seed, int n, double *x)
 
 static void gram_is_the_sum_of_the_products(void **state)
 {
-    double a[N * TERMS], c[N * N];
+    double a[N * TERMS], work[N * TERMS], c[N * N];
     (void)state;
     random_values(1, N * TERMS, a);
     random_values(2, N * N, c);
     for (enum simd_level level = SIMD_PORTABLE; level < SIMD_LEVELS && has(level); level++) {
         double sum[N * N];
         memcpy(sum, c, sizeof sum);
-        simd_gram(level)(N, TERMS, a, sum);
+        simd_gram(level)(N, TERMS, a, work, sum);
         for (int j = 0; j < N; j++) {
             for (int i = j; i < N; i++) {
                 double wanted = c[num_at(i, j, N)];
@@ -43,13 +43,13 @@ static void gram_is_the_sum_of_the_products(void **state)
 
 static void gram_has_the_same_bits_on_all_instruction_sets(void **state)
 {
-    double a[N * TERMS], first[N * N] = {0.0};
+    double a[N * TERMS], work[N * TERMS], first[N * N] = {0.0};
     (void)state;
     random_values(3, N * TERMS, a);
-    simd_gram(SIMD_PORTABLE)(N, TERMS, a, first);
+    simd_gram(SIMD_PORTABLE)(N, TERMS, a, work, first);
     for (enum simd_level level = SIMD_PORTABLE; level < SIMD_LEVELS && has(level); level++) {
         double sum[N * N] = {0.0};
-        simd_gram(level)(N, TERMS, a, sum);
+        simd_gram(level)(N, TERMS, a, work, sum);
         for (int j = 0; j < N; j++) { /* above the diagonal the blocks differ in what they add */
             assert_memory_equal(sum + num_at(j, j, N), first + num_at(j, j, N),
                                 (size_t)(N - j) * sizeof *sum);

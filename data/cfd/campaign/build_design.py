@@ -132,13 +132,21 @@ def sines():
                 yield sine(name_of(kind, mean, a, w, f), "sine_%s_%s" % (kind, group), mean, f, a, w, phase)
 
 
+def alternate(groups):
+    """The rows of all groups, each at the same pace, so that a beginning of the list has some of each."""
+    ranked = [((i + 0.5) / len(group), k, row) for k, group in enumerate(groups) for i, row in enumerate(group)]
+    return [entry[2] for entry in sorted(ranked, key=lambda entry: entry[:2])]
+
+
 def small_sines():
     """Motions that stay below stall, a peak angle of 2 to 7.5 deg with the incidence of the plunge: the
     other sines, drawn over all mean angles, leave few records there, and of small amplitude hardly any."""
-    for kind, slow_count, fast_count, offset in (("pitch", 8, 6, 301), ("plunge", 6, 5, 341),
-                                                 ("both", 4, 5, 371)):
+    groups = []
+    for kind, slow_count, fast_count, offset in (("pitch", 14, 18, 301), ("plunge", 10, 16, 341),
+                                                 ("both", 8, 16, 371)):
         for group, count, frequency_of in (("slow", slow_count, slow), ("fast", fast_count, fast)):
             start = offset if group == "slow" else offset + 200
+            groups.append([])
             for i in range(start, start + count):
                 f = frequency_of(halton(i, 2))
                 peak = between(2.0, 7.5, halton(i, 5))
@@ -151,7 +159,27 @@ def small_sines():
                 if kind == "both":  # half of it each, in the worst case one on top of the other
                     a, w = round(0.5 * a, 1), float("%.2g" % (0.5 * w))
                     phase = 45.0 * math.floor(8.0 * halton(i, 7))
-                yield sine(name_of(kind, mean, a, w, f), "sine_small", mean, f, a, w, phase)
+                groups[-1].append(sine(name_of(kind, mean, a, w, f), "sine_small", mean, f, a, w, phase))
+    return alternate(groups)
+
+
+def torsion_sines():
+    """Torsion past stall, where a stall flutter of torsion grows or ends: peak angles of 8 to 15 deg at
+    f = 0.2 to 0.45, pitch alone and with the little plunge that a torsion mode has."""
+    groups = []
+    for kind, count, start in (("pitch", 22, 601), ("both", 12, 641)):
+        groups.append([])
+        for i in range(start, start + count):
+            f = round(log_between(FAST, 0.45, halton(i, 2)), 2)
+            peak = between(8.0, 15.0, halton(i, 5))
+            mean = round(2.0 * between(0.0, 8.0, halton(i, 3))) / 2.0
+            a = round(min(peak - mean, 9.0) * min(1.0, 0.3 / f), 1)
+            w, phase = 0.0, 0.0
+            if kind == "both":
+                w = float("%.2g" % (between(0.02, 0.06, halton(i, 7)) / (2.0 * math.pi * f)))
+                phase = 45.0 * math.floor(8.0 * halton(i, 11))
+            groups[-1].append(sine(name_of(kind, mean, a, w, f), "sine_torsion", mean, f, a, w, phase))
+    return alternate(groups)
 
 
 def anchors(block, suffix="", points=None, **settings):
@@ -267,13 +295,14 @@ def both_checks():
 def document_rows():
     """All rows in order. Within a block the i-th of n rows has the rank x = (i + 1/2) / n, turned into
     a + b x: forward where others wait for it; the angles at mid-channel come before everything, the
-    small sines after all other motions, the other Reynolds numbers after everything."""
+    small sines and those of torsion after all other motions, the other Reynolds numbers after everything."""
     place = {"static": (0.0, 0.0), "static_coarse": (0.0, 0.04), "static_plunge": (0.0, 0.05),
-             "check_static": (0.0, 0.15), "check_sine_both": (0.0, 0.1), "sine_small": (1.0, 0.0), "reynolds": (1.0, 1.0)}
+             "check_static": (0.0, 0.15), "check_sine_both": (0.0, 0.1), "sine_small": (1.0, 0.5),
+             "sine_torsion": (1.0, 0.5), "reynolds": (1.0, 1.0)}
     blocks = {}
     for source in (statics(), anchors("sine_pitch_slow"), plunge_anchors(), sines(), broadband(),
                    statics_off_centre(), statics_coarse(), slope_checks(), reynolds(), motion_checks(), both_checks(),
-                   small_sines()):
+                   small_sines(), torsion_sines()):
         for row in source:
             blocks.setdefault(row["block"], []).append(row)
     ranked = []
