@@ -22,14 +22,20 @@ struct map_read {
     char names[160];  /* members of a summary, for the answer to a wrong value */
 };
 
-static void name_members(const cJSON *summary, struct map_read *read)
+static void name_members(const char *text, struct map_read *read)
 {
     const char *names[NAMES_MAX + 1] = {NULL};
     int n = 0;
-    for (const cJSON *c = summary->child; c != NULL && n < NAMES_MAX; c = c->next) {
-        names[n++] = c->string;
+    cJSON *summary = cJSON_Parse(text);
+    const cJSON *c = NULL;
+    cJSON_ArrayForEach(c, summary)
+    {
+        if (n < NAMES_MAX) {
+            names[n++] = c->string;
+        }
     }
     reader_join(names, sizeof read->names, read->names);
+    cJSON_Delete(summary);
 }
 
 /* study_visit. */
@@ -42,7 +48,7 @@ static void enter(void *arg, const struct service_cell *c, cJSON **summary)
         read->absent += kind == STUDY_VALUE_ABSENT;
         read->composite = read->composite || kind == STUDY_VALUE_NONE;
         if (read->seen == 1) {
-            name_members(*summary, read);
+            name_members(c->summary, read);
         }
     }
 }
@@ -164,7 +170,8 @@ static bool overlay_read(const struct api_call *call, struct api_response *res, 
         room = room && study_map_init(&o->map[i]);
     }
     const enum service_status st =
-        room ? study_each_cell(call->api->service, job.id, enter_boundary, o) : SERVICE_ERROR;
+        room ? study_each_cell(call->api->service, job.id, 2, names, enter_boundary, o)
+             : SERVICE_ERROR;
     if (st != SERVICE_OK) {
         respond_service(res, st, job.id);
         return false;
@@ -266,7 +273,8 @@ void handle_map(const struct api_call *call, struct api_response *res)
         return;
     }
     struct map_read read = {.map = &m};
-    const enum service_status st = study_each_cell(call->api->service, job.id, enter, &read);
+    const enum service_status st =
+        study_each_cell(call->api->service, job.id, 1, &m.value_name, enter, &read);
     if (st != SERVICE_OK) {
         respond_service(res, st, job.id);
     } else if (read.composite || (read.seen > 0 && read.absent == read.seen)) {

@@ -58,9 +58,10 @@ static bool gather(const struct api_call *call, struct api_response *res, struct
     const size_t cells = (size_t)study_cells(g->study);
     g->summary = calloc(cells, sizeof(cJSON *));
     g->state = calloc(cells, sizeof *g->state);
-    const enum service_status st = g->summary != NULL && g->state != NULL
-                                       ? study_each_cell(call->api->service, g->job.id, keep, g)
-                                       : SERVICE_ERROR;
+    const enum service_status st =
+        g->summary != NULL && g->state != NULL
+            ? study_each_cell(call->api->service, g->job.id, 0, NULL, keep, g)
+            : SERVICE_ERROR;
     if (st != SERVICE_OK) {
         respond_service(res, st, g->job.id);
     }

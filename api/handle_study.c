@@ -133,8 +133,8 @@ struct study *study_of_job(const struct api_call *call, struct api_response *res
     return study;
 }
 
-enum service_status study_each_cell(const struct service *s, const char *id, study_visit visit,
-                                    void *arg)
+enum service_status study_each_cell(const struct service *s, const char *id, int n_path,
+                                    const char *const *path, study_visit visit, void *arg)
 {
     enum service_status st = SERVICE_OK;
     int from = 0, n = CELL_PAGE;
@@ -145,8 +145,11 @@ enum service_status study_each_cell(const struct service *s, const char *id, stu
             return st;
         }
         for (int i = 0; i < n; i++) {
-            cJSON *summary = cell[i].summary != NULL ? cJSON_Parse(cell[i].summary) : NULL;
-            st = cell[i].summary != NULL && summary == NULL ? SERVICE_ERROR : st;
+            const char *text = cell[i].summary;
+            cJSON *summary = text == NULL ? NULL
+                             : n_path > 0 ? study_value_parse(text, n_path, path)
+                                          : cJSON_Parse(text);
+            st = text != NULL && summary == NULL ? SERVICE_ERROR : st;
             visit(arg, &cell[i], &summary);
             cJSON_Delete(summary);
         }

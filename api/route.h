@@ -40,11 +40,12 @@ void study_submit(const struct api_call *call, struct study *study, struct api_r
 bool study_find(const struct api_call *call, struct api_response *res, struct job_record *job,
                 struct service_study *study);
 struct study *study_of_job(const struct api_call *call, struct api_response *res, const char *id);
-/* Shows every finished cell with its summary, NULL when it has none; `visit` keeps a summary by
- * setting it to NULL. SERVICE_ERROR: one could not be read, or the store failed. */
+/* Shows every finished cell with its summary, NULL when it has none, or with what of it the n paths
+ * lead to (study_value_parse; n 0: all); `visit` keeps a summary by setting it to NULL.
+ * SERVICE_ERROR: one could not be read, or the store failed. */
 typedef void (*study_visit)(void *arg, const struct service_cell *c, struct cJSON **summary);
-enum service_status study_each_cell(const struct service *s, const char *id, study_visit visit,
-                                    void *arg);
+enum service_status study_each_cell(const struct service *s, const char *id, int n,
+                                    const char *const *path, study_visit visit, void *arg);
 void handle_study(const struct api_call *call, struct api_response *res);
 void handle_cells(const struct api_call *call, struct api_response *res);
 void handle_cell(const struct api_call *call, struct api_response *res);

@@ -1,5 +1,7 @@
 #include "api/study_map.h"
 
+#include "api/json.h"
+
 #include <assert.h>
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -95,12 +97,34 @@ static const cJSON *follow(const cJSON *at, const char *path)
     return at;
 }
 
-static const cJSON *find(const cJSON *summary, const char *path)
+/* The path a short name stands for; NULL for other names. */
+static const char *path_of(const char *name)
 {
     for (size_t i = 0; i < sizeof short_names / sizeof short_names[0]; i++) {
-        if (strcmp(path, short_names[i].name) == 0) {
-            return follow(summary, short_names[i].path);
+        if (strcmp(name, short_names[i].name) == 0) {
+            return short_names[i].path;
         }
+    }
+    return NULL;
+}
+
+struct cJSON *study_value_parse(const char *summary, int n, const char *const *path)
+{
+    assert(n <= STUDY_PATHS_MAX);
+    char part[STUDY_PATHS_MAX][PATH_SIZE];
+    const char *name[STUDY_PATHS_MAX + 1] = {"means"};
+    for (int i = 0; i < n; i++) {
+        const char *whole = path_of(path[i]) != NULL ? path_of(path[i]) : path[i];
+        (void)snprintf(part[i], PATH_SIZE, "%.*s", (int)strcspn(whole, "."), whole);
+        name[i + 1] = part[i];
+    }
+    return json_parse_members(summary, strlen(summary), n + 1, name);
+}
+
+static const cJSON *find(const cJSON *summary, const char *path)
+{
+    if (path_of(path) != NULL) {
+        return follow(summary, path_of(path));
     }
     const cJSON *found = follow(summary, path);
     if (found == NULL) {

@@ -15,6 +15,7 @@ struct cJSON;
 
 enum {
     STUDY_AXES_MAX = 8,
+    STUDY_PATHS_MAX = 4,
     STUDY_CLASSES_MAX = 32, /* distinct texts of a result, e.g. verdicts */
     STUDY_CLASS_SIZE = 48
 };
@@ -70,6 +71,10 @@ enum study_value_kind {
  * of its first root, names of means without "means.", "mean_NAME" for "means.NAME". */
 enum study_value_kind study_value(const struct cJSON *summary, const char *path, double *number,
                                   const char **text);
+
+/* What of the text of a summary study_value needs for these paths, at most STUDY_PATHS_MAX; NULL:
+ * the text is broken, or no memory. */
+struct cJSON *study_value_parse(const char *summary, int n, const char *const *path);
 
 /* Enters a finished cell and tells what its value is; a failed one has none (summary NULL) and
  * counts as missing, as does a text beyond the maximum of classes. */

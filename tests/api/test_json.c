@@ -246,6 +246,30 @@ static void test_tree_prints_exactly(void **state)
     json_free(tree);
 }
 
+static void test_members(void **state)
+{
+    static const char text[] =
+        "{ \"a\" : {\"b\":[1,{\"c\":\"}],\\\"\"}]},\"b\":\"\\\\\", \"c\":[[2]] ,\"d\":-1e3}";
+    static const char *const names[] = {"b", "d", "e"};
+    static const char *const broken[] = {"",           "[]",         "{\"a\"}",     "{\"a\":1",
+                                         "{\"a\":1,}", "{\"b\":\"x", "{\"b\":tru}", "{\"b\":[}"};
+    (void)state;
+    struct cJSON *found = json_parse_members(text, strlen(text), 3, names);
+    struct json_out out = {0};
+    assert_non_null(found);
+    json_value(&out, found);
+    assert_string_equal(out.text, "{\"b\":\"\\\\\",\"d\":-1000}");
+    json_out_done(&out);
+    json_free(found);
+    found = json_parse_members("{}", 2, 3, names);
+    assert_non_null(found);
+    json_free(found);
+    for (size_t i = 0; i < sizeof broken / sizeof broken[0]; i++) {
+        found = json_parse_members(broken[i], strlen(broken[i]), 3, names);
+        assert_null(found);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -259,6 +283,7 @@ int main(void)
         cmocka_unit_test(test_numbers_in_units),
         cmocka_unit_test(test_writer),
         cmocka_unit_test(test_tree_prints_exactly),
+        cmocka_unit_test(test_members),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

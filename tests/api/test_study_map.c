@@ -56,6 +56,43 @@ static void test_values(void **state)
     cJSON_Delete(s);
 }
 
+/* What is read of a text for some paths gives what the whole gives. */
+static void test_values_of_a_text(void **state)
+{
+    static const char *const path[] = {"means.tip_twist_deg",
+                                       "tip_twist_deg",
+                                       "mean_tip_twist_deg",
+                                       "cl",
+                                       "damping.tip_twist",
+                                       "damping.tip_plunge",
+                                       "verdict",
+                                       "nothing",
+                                       "modes.1.frequency_hz",
+                                       "modes.2.frequency_hz",
+                                       "modes",
+                                       "free",
+                                       "modes.x",
+                                       "nothing.more",
+                                       "absent",
+                                       "absent.part"};
+    (void)state;
+    cJSON *whole = cJSON_Parse(summary_text);
+    for (size_t i = 0; i < sizeof path / sizeof path[0]; i++) {
+        double number[2] = {0.0, 0.0};
+        const char *text[2] = {"", ""};
+        cJSON *part = study_value_parse(summary_text, 1, &path[i]);
+        assert_non_null(part);
+        assert_true(cJSON_GetArraySize(part) < cJSON_GetArraySize(whole));
+        assert_int_equal(study_value(part, path[i], &number[0], &text[0]),
+                         study_value(whole, path[i], &number[1], &text[1]));
+        assert_true(number[0] == number[1]);
+        assert_string_equal(text[0], text[1]);
+        cJSON_Delete(part);
+    }
+    cJSON_Delete(whole);
+    assert_null(study_value_parse("{\"verdict\":\"stable", 1, path));
+}
+
 static const double speed[] = {2.0, 3.0, 4.0};
 static const char *const polar[] = {"a", "b"};
 
@@ -135,6 +172,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values),
+        cmocka_unit_test(test_values_of_a_text),
         cmocka_unit_test(test_numbers),
         cmocka_unit_test(test_classes),
     };

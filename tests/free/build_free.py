@@ -134,9 +134,10 @@ def model_onset(aerom, options, polar, row, slowest=12.0):
     return 0.5 * (low + high)
 
 
-def cfd_onset(items):
-    """The same of the flow computations, by a straight line between the two cases around it."""
-    known = sorted((1.0 / float(i["row"]["f_pitch"]), i["cfd"]["growth"]) for i in items)
+def cfd_onset(items, more=0.0):
+    """The same of the flow computations, by a straight line between the two cases around it, were their
+    growth larger by `more`."""
+    known = sorted((1.0 / float(i["row"]["f_pitch"]), i["cfd"]["growth"] + more) for i in items)
     for (u, a), (v, b) in zip(known, known[1:]):
         if a < 0.0 <= b:
             return u + (v - u) * a / (a - b)
@@ -177,11 +178,12 @@ def number(value, form):
     return "–" if value is None else form % value
 
 
-def onset_table(items, onsets):
+def onset_table(items, onsets, error):
     cfd = cfd_onset(items)
+    half = 0.5 * (cfd_onset(items, -error["growth"]) - cfd_onset(items, error["growth"]))
     yield "| | onset V/(f_θ c) | against the flow computation |"
     yield "|---|---|---|"
-    yield "| flow computation | %s | |" % number(cfd, "%.2f")
+    yield "| flow computation | %.2f ± %.2f | |" % (cfd, half)
     for key, _, name, _ in MODELS:
         value = onsets[key]
         yield "| %s | %s | %s |" % (name, number(value, "%.2f") if value else "none up to 12",
@@ -209,15 +211,28 @@ def case_tables(items):
             yield "| " + " | ".join(cells) + " |"
 
 
-def check_table(items, checks):
-    yield "| case | changed | frequency before, after | growth before, after | half the range at the end, deg |"
-    yield "|---|---|---|---|---|"
+def checked(items, checks):
+    """(case, its check, what was found in each over the time that both have)."""
     for row in checks:
         base = next(i for i in items if all(i["row"][k] == row[k] for k in ("f_pitch", "start_deg_per_t")))
         series = record_of(row)
         last = series["t"][-1]
-        found = [summary(*([v for t, v in zip(s["t"], s[k]) if t <= last] for k in ("t", "alpha_deg")))
-                 for s in (base["series"], series)]
+        yield base, row, [summary(*([v for t, v in zip(s["t"], s[k]) if t <= last] for k in ("t", "alpha_deg")))
+                          for s in (base["series"], series)]
+
+
+def uncertainty(items, checks):
+    """Largest change in the checks: of the frequency and of the size as shares, of the growth."""
+    found = [pair for _, _, pair in checked(items, checks)]
+    return {"frequency": max(abs(b["frequency"] / a["frequency"] - 1.0) for a, b in found),
+            "growth": max(abs(b["growth"] - a["growth"]) for a, b in found),
+            "end": max(abs(b["end"] / a["end"] - 1.0) for a, b in found)}
+
+
+def check_table(items, checks):
+    yield "| case | changed | frequency before, after | growth before, after | half the range at the end, deg |"
+    yield "|---|---|---|---|---|"
+    for base, row, found in checked(items, checks):
         changed = ", ".join("%s %s" % (key, row[key]) for key in ("mesh", "step")
                             if row[key] != base["row"][key])
         yield "| `%s` | %s | %s |" % (base["row"]["name"], changed, " | ".join(
@@ -248,14 +263,15 @@ def histories(items):
     return sheet("Sections on springs: angle over time", 66 + 290 * ((len(items) + 1) // 2), parts)
 
 
-def mark(panel, x, y, fill=svg.BLACK):
+def mark(panel, x, y, error, fill=svg.BLACK):
+    panel.curve([x, x], [y - error, y + error], svg.BLACK, 1.2)
     panel.svg.append('<circle cx="%.1f" cy="%.1f" r="4" fill="%s" stroke="%s"/>' % (
         panel.x(x), panel.y(y), fill, svg.BLACK))
 
 
-def scan(aerom, items, own):
-    """Growth and limit cycle of the models over the reduced velocity, marks where the flow was computed: open
-    ones were still growing."""
+def scan(aerom, items, own, error):
+    """Growth and limit cycle of the models over the reduced velocity, marks with error bars where the flow was
+    computed: open ones were still growing."""
     row = items[0]["row"]
     ratio = float(row["f_plunge"]) / float(row["f_pitch"])
     speeds = [5.5 + 0.25 * k for k in range(21)]
@@ -278,29 +294,30 @@ def scan(aerom, items, own):
     for item in items:
         u = 1.0 / float(item["row"]["f_pitch"])
         if is_push(item["row"]):
-            mark(rates, u, item["cfd"]["growth"])
+            mark(rates, u, item["cfd"]["growth"], error["growth"])
         if item["cfd"]["end"] > 2.0:
-            mark(sizes, u, item["cfd"]["end"],
+            mark(sizes, u, item["cfd"]["end"], error["end"] * item["cfd"]["end"],
                  svg.BLACK if abs(item["cfd"]["end_growth"]) <= STEADY else "#ffffff")
     return sheet("Growth of small swings and limit cycles over the reduced velocity", 340, [rates, sizes])
 
 
-def page(items, checks, onsets):
+def page(items, checks, onsets, error):
     with open(Path(__file__).with_name("text.md"), encoding="utf-8") as file:
         before, after = file.read().split("<!-- numbers -->\n")
     yield before.rstrip("\n")
     yield ""
-    yield from onset_table([i for i in items if is_push(i["row"])], onsets)
+    yield from onset_table([i for i in items if is_push(i["row"])], onsets, error)
     yield from case_tables(items)
     yield ""
     yield "![angle over time of the cases](free/histories.svg)"
     yield ""
     yield "![growth and limit cycles over the reduced velocity; open marks were still growing](free/scan.svg)"
-    if checks:
-        yield ""
-        yield "Computed again on another mesh or with another step:"
-        yield ""
-        yield from check_table(items, checks)
+    yield ""
+    yield ("Computed again on another mesh or with another step. The largest change, %.1f %% of the frequency, %.4f in the growth and "
+           "%.1f %% of the size, is the uncertainty of the flow computations here: the bars of the drawing, most of them smaller than "
+           "their marks, and that of the onset." % (100.0 * error["frequency"], error["growth"], 100.0 * error["end"]))
+    yield ""
+    yield from check_table(items, checks)
     yield ""
     yield after.rstrip("\n")
 
@@ -313,18 +330,20 @@ def computed(aerom):
         items = [compare(aerom, row, own) for row in rows if standard(row)]
         onsets = {key: model_onset(aerom, options, own if key == "own" else build_loops.POLAR, rows[0])
                   for key, options, _, _ in MODELS}
-        drawing = scan(aerom, items, own)
-    return items, [row for row in rows if not standard(row)], onsets, drawing
+        checks = [row for row in rows if not standard(row)]
+        error = uncertainty(items, checks)
+        drawing = scan(aerom, items, own, error)
+    return items, checks, onsets, error, drawing
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("--aerom", default=str(ROOT / "build" / "release" / "bin" / "aerom"))
-    items, checks, onsets, drawing = computed(parser.parse_args().aerom)
+    items, checks, onsets, error, drawing = computed(parser.parse_args().aerom)
     DRAWINGS.mkdir(exist_ok=True)
     (DRAWINGS / "histories.svg").write_text(histories(items), encoding="utf-8")
     (DRAWINGS / "scan.svg").write_text(drawing, encoding="utf-8")
-    PAGE.write_text("\n".join(page(items, checks, onsets)) + "\n", encoding="utf-8")
+    PAGE.write_text("\n".join(page(items, checks, onsets, error)) + "\n", encoding="utf-8")
     return 0
 
 
