@@ -16,15 +16,15 @@ enum {
     DIGITS_MIN = 15,
     DIGITS_MAX = 17,     /* always enough */
     FIVE_MAX = 27,       /* largest power of five in 64 bits */
-    SCALE_MAX = 31,      /* a significand times 5^31 fits into 128 bits, */
-    FRACTION_MAX = 69,   /* and so does twice the value with so many bits behind its point */
+    SCALE_MAX = 54,      /* 5^54 fits into 128 bits, */
+    FRACTION_MAX = 119,  /* and so do twice what 15 digits drop and so many bits behind the point */
     EXPONENT_FIXED = -4, /* %g: smaller numbers have an exponent */
 };
 
-/* A number as digit * 2^-fraction/10^scale, exactly, digit * 2^-fraction having 17 digits before
- * its point. */
+/* A number as (whole + below * 2^-fraction)/10^scale, exactly, whole having 17 digits. */
 struct scaled {
-    wide digit;
+    uint64_t whole;
+    wide below;
     wide half_gap; /* half of the distance to the neighbouring doubles, in 2^-(fraction + 1) */
     int scale, fraction;
     bool even; /* a tie with a neighbour reads back as this number */
@@ -70,6 +70,15 @@ static uint64_t power_of_ten(int n)
     return (uint64_t)power_of_five(n) << n;
 }
 
+/* The bits of m five, 53 times 128, above so many: at most 64. */
+static uint64_t product_above(uint64_t m, wide five, int below)
+{
+    const wide low = (wide)m * (uint64_t)five;
+    const wide high = m * (five >> 64) + (low >> 64); /* counts 2^64 */
+    return below >= 64 ? (uint64_t)(high >> (below - 64))
+                       : (uint64_t)(high << (64 - below)) | (uint64_t)low >> below;
+}
+
 /* False for numbers, mostly very large and very small ones, that do not fit. */
 static bool scale(double magnitude, struct scaled *out)
 {
@@ -83,10 +92,10 @@ static bool scale(double magnitude, struct scaled *out)
             return false;
         }
         const wide five = power_of_five(k);
-        const wide digit = m * five;
-        const uint64_t whole = (uint64_t)(digit >> fraction);
+        const uint64_t whole = product_above(m, five, fraction);
         if (whole >= power_of_ten(DIGITS_MAX - 1) && whole < power_of_ten(DIGITS_MAX)) {
-            *out = (struct scaled){.digit = digit,
+            *out = (struct scaled){.whole = whole,
+                                   .below = m * five - ((wide)whole << fraction), /* of 128 bits */
                                    .half_gap = five,
                                    .scale = k,
                                    .fraction = fraction,
@@ -104,11 +113,9 @@ static bool scale(double magnitude, struct scaled *out)
 static bool round_to(const struct scaled *s, int digits, uint64_t *out)
 {
     const uint64_t dropped = power_of_ten(DIGITS_MAX - digits);
-    const uint64_t whole = (uint64_t)(s->digit >> s->fraction);
     const wide unit = (wide)dropped << s->fraction;
-    const wide below = s->digit - ((wide)whole << s->fraction);
-    const wide rest = ((wide)(whole % dropped) << s->fraction) + below;
-    uint64_t d = whole / dropped;
+    const wide rest = ((wide)(s->whole % dropped) << s->fraction) + s->below;
+    uint64_t d = s->whole / dropped;
     const bool up = rest + rest > unit || (rest + rest == unit && (d & 1) == 1);
     d += up;
     const wide off = up ? unit - rest : rest;

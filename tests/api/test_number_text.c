@@ -52,7 +52,7 @@ static void usual_sizes(void **state)
     (void)state;
     for (int i = 0; i < 1000000; i++) {
         const double fraction = random_uniform(&seed), size = random_uniform(&seed);
-        check((2.0 * fraction - 1.0) * pow(10.0, 36.0 * size - 17.0));
+        check((2.0 * fraction - 1.0) * pow(10.0, 60.0 * size - 40.0));
     }
 }
 
