@@ -158,7 +158,11 @@ static size_t print(bool negative, uint64_t d, int digits, int scale_10, char *t
         *p++ = i < kept ? digit[i] : '0';
     }
     if (!fixed) {
-        p += snprintf(p, 8, "e%+03d", exponent);
+        const int size = exponent < 0 ? -exponent : exponent;
+        *p++ = 'e';
+        *p++ = exponent < 0 ? '-' : '+';
+        *p++ = (char)('0' + size / 10); /* what can be scaled has two digits */
+        *p++ = (char)('0' + size % 10);
     }
     *p = '\0';
     return (size_t)(p - text);
