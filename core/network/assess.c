@@ -45,16 +45,6 @@ static void add_work(const struct flow_record *r, const struct window *w, int i,
     out->plunge += cl * r->value[num_at(i, FLOW_W_RATE, r->n)] * dt;
 }
 
-static double range_of(const double *x, int n)
-{
-    double least = x[0], most = x[0];
-    for (int i = 1; i < n; i++) {
-        least = fmin(least, x[i]);
-        most = fmax(most, x[i]);
-    }
-    return most - least;
-}
-
 static void compare(const struct flow_record *r, const struct window *w, const double *steady,
                     const double *model, struct assessment *a)
 {
@@ -84,8 +74,8 @@ enum status assess_coefficients(const struct flow_record *r, const double *stead
     if (w.n < 1) {
         return ST_INVALID;
     }
-    *out = (struct assessment){.range_cl = range_of(r->value + num_at(w.from, FLOW_CL, r->n), w.n),
-                               .range_cm = range_of(r->value + num_at(w.from, FLOW_CM, r->n), w.n)};
+    *out = (struct assessment){.range_cl = flow_record_range(r, FLOW_CL, w.from),
+                               .range_cm = flow_record_range(r, FLOW_CM, w.from)};
     compare(r, &w, steady, model, out);
     return ST_OK;
 }

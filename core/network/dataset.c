@@ -94,17 +94,9 @@ static void put(const double *x, const double *y, double weight, struct sample_s
 /* Sums of the squares of the ranges of c_l and c_m behind the start. */
 static void add_ranges(const struct flow_record *r, double square[2])
 {
-    static const enum flow_row row[2] = {FLOW_CL, FLOW_CM};
     const int first = flow_record_first(r);
-    for (int o = 0; o < 2; o++) {
-        const double *v = r->value + num_at(0, (int)row[o], r->n);
-        double least = v[first], most = v[first];
-        for (int i = first; i < r->n; i++) {
-            least = fmin(least, v[i]);
-            most = fmax(most, v[i]);
-        }
-        square[o] += num_sq(most - least);
-    }
+    square[0] += num_sq(flow_record_range(r, FLOW_CL, first));
+    square[1] += num_sq(flow_record_range(r, FLOW_CM, first));
 }
 
 /* Weight of each record, not yet one in the mean. */

@@ -51,6 +51,8 @@ bool flow_record_moves(const struct flow_record *r);
 double flow_record_step(const struct flow_record *r);
 /* First sample at or behind the start; n when there is none. */
 int flow_record_first(const struct flow_record *r);
+/* Largest less smallest of a row from sample `from` on. */
+double flow_record_range(const struct flow_record *r, enum flow_row row, int from);
 
 /* What a network sees, all inputs in the order of the enum: x (NET_IN_COUNT x n), input fastest,
  * with the definitions of the march (core/coupling/loads.c). The mean of the angle slides over the

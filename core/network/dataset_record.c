@@ -47,6 +47,16 @@ int flow_record_first(const struct flow_record *r)
     return i;
 }
 
+double flow_record_range(const struct flow_record *r, enum flow_row row, int from)
+{
+    double least = value(r, row, from), most = least;
+    for (int i = from; i < r->n; i++) {
+        least = fmin(least, value(r, row, i));
+        most = fmax(most, value(r, row, i));
+    }
+    return most - least;
+}
+
 bool flow_record_moves(const struct flow_record *r)
 {
     for (int i = 0; i < r->n; i++) {
