@@ -27,7 +27,7 @@ class Paper(unittest.TestCase):
 
     def test_wash_out_twists_less_and_is_stable_longer(self):
         found = self.service.grid([(cells.DYNAMIC, NETWORK)],
-                                  [(cells.ANGLE, (-40, 0, 40)), (cells.SPEED, (6.0, 10.3))],
+                                  [(cells.ANGLE, (-40, 0, 40)), (cells.SPEED, (6.0, 11.0))],
                                   ("verdict", "tip_twist_deg", "counters.outside_hull"))
         slow, fast = zip(*found["verdict"])
         self.assertEqual(slow, ("stable",) * 3)
