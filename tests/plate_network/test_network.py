@@ -24,8 +24,9 @@ class Network(unittest.TestCase):
         self.assertIs(identity["network_forced"], False)
 
     def test_it_rests_where_nothing_moves(self):
+        """In c_l by less than the meshes differ of which the polar and the records are made."""
         worst = build_network.rest_error(AEROM)
-        self.assertLess(worst["cl"], 0.06)
+        self.assertLess(worst["cl"], build_network.mesh_difference(build_network.KNEE_DEG)["cl"])
         self.assertLess(worst["cm"], 0.02)
 
     def test_works_have_the_sign_of_the_computations(self):
