@@ -36,14 +36,15 @@ class Networks(unittest.TestCase):
         self.assertEqual(self.study.median(MEMORY, "weights"), 352)
 
     def test_energy_error_falls_to_fifty_neurons(self):
-        for part in ("trained", "held"):
+        """By 44 % in the records trained, by 30 % in those held out."""
+        for part, fall in (("trained", 0.44), ("held", 0.30)):
             shares = [self.study.energy_share(("lm", n), part) for n in SIZES]
-            self.assertLess(shares[SIZES.index(50)], 0.6 * shares[0])
+            self.assertAlmostEqual(shares[SIZES.index(50)] / shares[0], 1.0 - fall, delta=0.03)
 
     def test_fifty_neurons_give_too_little_work(self):
-        """Wrong by about half of the mean size."""
+        """Wrong by about a third of the mean size."""
         for part in ("trained", "held"):
-            self.assertAlmostEqual(self.study.energy_share(PAPER, part), 0.5, delta=0.15)
+            self.assertAlmostEqual(self.study.energy_share(PAPER, part), 0.33, delta=0.08)
             self.assertLess(quantile(self.study.energy_errors(PAPER, part), 0.5), -0.2)
 
     def test_errors_grow_no_smaller_beyond_fifty(self):
@@ -72,8 +73,8 @@ class Networks(unittest.TestCase):
             curve = of(self.study.tables["curve"], PAPER, draw=float(draw))
             least, last = min(c["held"] for c in curve), max(curve, key=lambda c: c["epoch"])
             half = min(curve, key=lambda c: abs(c["epoch"] - 0.5 * last["epoch"]))
-            self.assertLess(last["held"], 1.03 * least)
-            self.assertLess(half["held"], 1.35 * least)
+            self.assertLess(last["held"], 1.07 * least)
+            self.assertLess(half["held"], 1.1 * least)
 
     def test_quantiles(self):
         self.assertEqual([quantile([3.0, 1.0, 2.0], q) for q in (0.0, 0.25, 0.5, 1.0)], [1.0, 1.5, 2.0, 3.0])
