@@ -50,7 +50,7 @@ static enum status train(const struct train_problem *problem, const char *path)
     const int count = perceptron_count(&problem->shape);
     struct train_def def;
     struct train_curve curve = {0};
-    double *p = malloc(2 * (size_t)count * sizeof *p);
+    double *p = malloc(3 * (size_t)count * sizeof *p); /* the last, and the best of either run */
     train_def_defaults(TRAIN_LM, &def);
     enum status st = p != NULL ? train_curve_init(def.epochs, &curve) : ST_NO_MEMORY;
     if (st == ST_OK) {
@@ -62,8 +62,13 @@ static enum status train(const struct train_problem *problem, const char *path)
         perceptron_start(&problem->shape, def.seed, p);
         curve.n = 0;
         const double start = seconds();
-        st = train_lm(problem, &def, &control, p, p + count, &curve);
+        st = train_lm(problem, &def, &control, p, p + (ptrdiff_t)threads * count, &curve);
         (void)printf("%.4f ", seconds() - start);
+    }
+    if (st == ST_OK &&
+        memcmp(p + count, p + 2 * (ptrdiff_t)count, (size_t)count * sizeof *p) != 0) {
+        (void)fprintf(stderr, "bench_training: two threads give other bits than one\n");
+        st = ST_INVALID;
     }
     if (st == ST_OK) {
         (void)printf("\n");

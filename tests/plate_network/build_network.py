@@ -26,10 +26,10 @@ import motion  # noqa: E402
 CFD = ROOT / "data" / "cfd"
 PAGE = ROOT / "docs" / "PLATE_NETWORK.md"
 NETWORK = ROOT / "data" / "networks" / "plate-4pct.json"
+POLAR = ROOT / "data" / "polars" / "plate-4pct-channel.json"
 FOLDS = "6"
 CELLS = "7"  # of the LSTM: as many weights as the network of the paper
 KNEE_DEG = 12.0  # beyond, the mesh of the records loses the vortices at rest
-SETTLED_AT_REST = 20.0  # [c/V]; as the polar
 SETTLED = 12.0  # broadband records count from here on, in c/V; as aerom train
 MODELS = (("none", "quasi-steady"), ("attached", "attached"), ("dynamic_stall", "dynamic stall"))
 NETS = (("paper", "network of the paper"), ("lstm", "LSTM"), ("lags", "network with lags"))
@@ -250,17 +250,13 @@ def rest_error(aerom):
 
 
 def mesh_difference(largest_deg):
-    """Largest difference of the steady means between the mesh of the records and that of the polar, up to an angle."""
-    rows, worst = index(), {"cl": 0.0, "cm": 0.0}
-    for name, row in rows.items():
-        other = rows.get(name + "_coarse")
-        if row["block"] != "static" or other is None or float(row["mean_deg"]) > largest_deg:
-            continue
-        pair = [[line for line in ask.record(CFD / "records" / (r["name"] + ".csv")) if line["t"] >= SETTLED_AT_REST]
-                for r in (row, other)]
-        means = [{c: statistics.fmean(line[c] for line in lines) for c in worst} for lines in pair]
-        worst = {c: max(worst[c], abs(means[0][c] - means[1][c])) for c in worst}
-    return worst
+    """Largest difference of the steady means at mid-channel between the mesh of the records and that of the polar, up to
+    an angle; from what the polar says of its origin."""
+    origin = json.loads(POLAR.read_text(encoding="utf-8"))["provenance"]
+    means = {p["alpha_deg"]: p for p in origin["production_mesh"] if p["plunge_c"] == 0.0}
+    pairs = [(means[p["alpha_deg"]], p) for p in origin["statics"]
+             if p["alpha_deg"] in means and p["alpha_deg"] <= largest_deg]
+    return {c: max(abs(a[c] - b[c]) for a, b in pairs) for c in ("cl", "cm")}
 
 
 def march(aerom, angle, speed, step, dynamic):
