@@ -20,6 +20,7 @@ static const struct field_range members = {.min = 1, .max = ENSEMBLE_MEMBERS_MAX
 static const struct field_range folds = {.min = 0, .max = TRAINING_FOLDS_MAX};
 static const struct field_range decay = {.min = 0.0, .max = 1.0};
 static const struct field_range balance = {.min = 0.0, .max = 1.0};
+static const struct field_range tolerance = {.min = 0.0, .max = 1.0};
 static const struct field_range rate = {.min = 0.0, .max = 1.0, .above_min = true};
 static const struct field_range window = {.min = 0.0, .max = 1000.0, .above_min = true};
 static const struct field_range share = {
@@ -126,6 +127,7 @@ const struct field training_fields[] = {
     INTEGER("samples_max", def.data.samples_max, samples),
     INTEGER("anchors", def.data.anchors, anchors),
     NUMBER("balance", def.data.balance, balance),
+    NUMBER("tolerance", def.train.tolerance, tolerance),
     {.key = "symmetric", .kind = FIELD_BOOLEAN, .offset = AT(def.train.symmetric)},
     NUMBER("held_share", def.data.held_share, share),
     {0},

@@ -31,7 +31,7 @@ static const struct command commands[] = {
      "FOLDER --output FILE.json [--name NAME] [--description TEXT] [--polar NAME|FILE.json]\n"
      "      [--base polar|attached|dynamic_stall] [--lags T,...] [--inputs NAME,...] [--hidden N]\n"
      "      [--members N] [--folds N] [--samples N] [--anchors N] [--optimiser lm|adam]\n"
-     "      [--epochs N] [--decay X] [--balance X] [--symmetric] [--seed N]",
+     "      [--epochs N] [--decay X] [--balance X] [--tolerance X] [--symmetric] [--seed N]",
      "train a network on the records of a folder like data/cfd; prints the learning curve and the\n"
      "      errors on each record, as CSV"},
     {"submit", remote_submit, "CASE.json... [--wait]", "hand cases to the daemon, print their ids"},

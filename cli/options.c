@@ -39,6 +39,7 @@ static const struct option long_options[] = {
     {"samples", required_argument, NULL, 'Q'},
     {"anchors", required_argument, NULL, 'U'},
     {"balance", required_argument, NULL, 'G'},
+    {"tolerance", required_argument, NULL, 'T'},
     {"symmetric", no_argument, NULL, 'R'},
     {"optimiser", required_argument, NULL, 'O'},
     {"value", required_argument, NULL, 'V'},
@@ -85,7 +86,7 @@ static const struct target targets[] = {
     TARGET('L', TEXT, lags),        TARGET('K', NUMBER, members),
     TARGET('Z', NUMBER, folds),     TARGET('Q', NUMBER, samples),
     TARGET('U', NUMBER, anchors),   TARGET('G', NUMBER, balance),
-    TARGET('R', FLAG, symmetric),
+    TARGET('T', NUMBER, tolerance), TARGET('R', FLAG, symmetric),
 };
 
 static bool parse_number(const char *text, bool seconds, double *out)
@@ -145,6 +146,7 @@ bool options_parse(int argc, char **argv, const char *allowed, int least, int mo
                         .samples = NAN,
                         .anchors = NAN,
                         .balance = NAN,
+                        .tolerance = NAN,
                         .timeout_s = INFINITY};
     int letter = 0;
     while ((letter = getopt_long(argc, argv, "", long_options, NULL)) != -1) {

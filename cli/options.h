@@ -43,6 +43,7 @@ struct options {
     double samples;       /* -Q */
     double anchors;       /* -U */
     double balance;       /* -G */
+    double tolerance;     /* -T */
     double timeout_s;     /* -t, infinite when not given */
     bool wait;            /* -w */
     bool csv;             /* -c */

@@ -145,6 +145,7 @@ bool training_set(const struct options *o, struct training *t)
     net->n_hidden = options_whole(o->hidden, net->n_hidden);
     t->def.train.epochs = options_whole(o->epochs, t->def.train.epochs);
     t->def.train.decay = options_given(o->decay, t->def.train.decay);
+    t->def.train.tolerance = options_given(o->tolerance, t->def.train.tolerance);
     if (!set_name(o->name != NULL ? o->name : "trained", net) || !set_counts(o, t) ||
         !set_base(o->base, &net->frame) || !set_lags(o->lags, &net->frame) ||
         !set_inputs(o->inputs, net)) {

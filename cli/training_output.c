@@ -106,6 +106,7 @@ static char *provenance(const struct training *t)
     json_key_integer(&out, "seed", (long long)t->def.train.seed);
     json_key_number(&out, "decay", t->def.train.decay);
     json_key_number(&out, "balance", t->def.data.balance);
+    json_key_number(&out, "tolerance", t->def.train.tolerance);
     json_key(&out, "symmetric");
     json_boolean(&out, t->def.train.symmetric);
     write_members(t, &out);

@@ -9,7 +9,7 @@ enum simd_level simd_level_of_machine(void)
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) {
         return SIMD_AVX512;
     }
-    if (__builtin_cpu_supports("avx2")) {
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
         return SIMD_AVX2;
     }
 #endif

@@ -3,18 +3,24 @@
  * compiled for, the one matrix-vector product the time loop needs and the one matrix product of the
  * training.
  *
- * A kernel is one body compiled once per level; nothing is contracted, so every level gives the
- * same bits. Stateless; thread-safe. */
+ * A kernel is one body compiled once per level; sums and products are fused where the body says so
+ * (SIMD_KERNEL(fma) of core/simd_vector.inc) and nowhere else, so every level gives the same bits.
+ * Stateless; thread-safe. */
 #ifndef AEROM_CORE_SIMD_H
 #define AEROM_CORE_SIMD_H
 
 #include <stddef.h>
+#include <stdint.h>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
 
 enum { LANES = 8 };
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 
 #if defined(__x86_64__)
-#define SIMD_TARGET_AVX2 __attribute__((target("avx2")))
+#define SIMD_TARGET_AVX2 __attribute__((target("avx2,fma")))
 #define SIMD_TARGET_AVX512 __attribute__((target("avx512f,avx512dq")))
 #else
 #define SIMD_TARGET_AVX2
@@ -30,11 +36,12 @@ enum simd_level simd_level_of_machine(void);
  *   KERNEL_NAME    of its function; SIMD_KERNEL(x) names the parts
  *   KERNEL_TARGET  attribute that selects the instruction set
  *   KERNEL_WIDTH   doubles of its vectors: what one register holds, since wider vectors are carried
- *                  through memory from one turn of a loop to the next */
+ *                  through memory from one turn of a loop to the next
+ * behind core/simd_vector.inc, which defines the vector and its operations. */
 #define SIMD_PASTE(name, kernel) name##_##kernel
 #define SIMD_JOIN(name, kernel) SIMD_PASTE(name, kernel)
 #define SIMD_KERNEL(name) SIMD_JOIN(name, KERNEL_NAME)
-enum { SIMD_WIDTH_PORTABLE = 2, SIMD_WIDTH_AVX2 = 4, SIMD_WIDTH_AVX512 = 8 };
+#define TANH_SCALE 2.8853900817779268 /* 2/ln 2: of what SIMD_KERNEL(tanh_scaled) is given */
 
 /* Rows padded to whole lanes. */
 static inline int simd_padded(int n)

@@ -1,7 +1,7 @@
 #include "core/aero/network.h"
 
-#include "core/aero/tanh_lanes.h"
 #include "core/num.h"
+#include "core/simd.h"
 
 #include <assert.h>
 #include <stdbool.h>
@@ -28,7 +28,7 @@ struct network {
     double out_offset[LIMIT_NET_OUTPUTS], out_scale[LIMIT_NET_OUTPUTS];
     double hull_min[LIMIT_NET_INPUTS], hull_max[LIMIT_NET_INPUTS];
     network_kernel_fn kernel;
-    /* Per group: n_in rows of weights, biases, n_out rows of output weights; read once from front
+    /* Per group: biases, n_in rows of weights, n_out rows of output weights; read once from front
      * to back. What enters the tanh carries its TANH_SCALE. */
     double *neuron; /* (NETWORK_GROUP x (n_in + 1 + n_out) x n_group) */
     double b2[LIMIT_NET_OUTPUTS];
@@ -181,11 +181,11 @@ static void pack_neurons(const struct network_def *def, struct network *net)
         const int first = group * NETWORK_GROUP;
         for (int row = 0; row <= def->n_in + def->n_out; row++) {
             for (int j = first; j < first + NETWORK_GROUP; j++) {
-                const int o = row - def->n_in - 1;
+                const int i = row - 1, o = i - def->n_in;
                 *w++ = j >= def->n_hidden ? 0.0
                        : o >= 0           ? def->w2[j + def->n_hidden * o]
-                       : o == -1          ? TANH_SCALE * def->b1[j]
-                                          : TANH_SCALE * def->w1[row + def->n_in * j];
+                       : i >= 0           ? TANH_SCALE * def->w1[i + def->n_in * j]
+                                          : TANH_SCALE * def->b1[j];
             }
         }
     }

@@ -64,12 +64,15 @@ static enum status draw(const struct dataset_def *def, int n_record,
     return ST_OK;
 }
 
-static enum status room(int n, struct sample_set *s)
+/* For n samples in so many groups. */
+static enum status room(int n, int groups, struct sample_set *s)
 {
     s->x = malloc((size_t)n * NET_IN_COUNT * sizeof *s->x);
     s->y = malloc((size_t)n * NET_OUT_COUNT * sizeof *s->y);
     s->weight = malloc((size_t)n * sizeof *s->weight);
-    return s->x != NULL && s->y != NULL && s->weight != NULL ? ST_OK : ST_NO_MEMORY;
+    s->end = malloc((size_t)groups * sizeof *s->end);
+    return s->x != NULL && s->y != NULL && s->weight != NULL && s->end != NULL ? ST_OK
+                                                                               : ST_NO_MEMORY;
 }
 
 /* A sample and its mirror image. */
@@ -91,19 +94,27 @@ static void put(const double *x, const double *y, double weight, struct sample_s
     }
 }
 
-/* Sums of the squares of the ranges of c_l and c_m behind the start. */
-static void add_ranges(const struct flow_record *r, double square[2])
+/* What was put since the last call is a group. */
+static void end_group(struct sample_set *s)
 {
-    const int first = flow_record_first(r);
-    square[0] += num_sq(flow_record_range(r, FLOW_CL, first));
-    square[1] += num_sq(flow_record_range(r, FLOW_CM, first));
+    s->end[s->n_group++] = s->n;
 }
 
-/* Weight of each record, not yet one in the mean. */
-static void weigh(const struct dataset_def *def, int n_record, const struct flow_record *record,
-                  double *weight)
+/* Sums of the squares of the ranges behind the start. */
+static void add_ranges(const struct flow_record *r, double square[NET_OUT_COUNT])
 {
-    double all[2] = {0.0};
+    static const enum flow_row row[NET_OUT_COUNT] = {
+        [NET_OUT_CL] = FLOW_CL, [NET_OUT_CM] = FLOW_CM, [NET_OUT_CD] = FLOW_CD};
+    for (int o = 0; o < NET_OUT_COUNT; o++) {
+        square[o] += num_sq(flow_record_range(r, row[o], flow_record_first(r)));
+    }
+}
+
+/* Weight of each record, not yet one in the mean; range (NET_OUT_COUNT) of the moving ones, rms. */
+static void weigh(const struct dataset_def *def, int n_record, const struct flow_record *record,
+                  double *weight, double *range)
+{
+    double all[NET_OUT_COUNT] = {0.0};
     int moving = 0;
     for (int i = 0; i < n_record; i++) {
         if (flow_record_moves(&record[i])) {
@@ -112,17 +123,22 @@ static void weigh(const struct dataset_def *def, int n_record, const struct flow
         }
     }
     for (int i = 0; i < n_record; i++) {
-        double own[2] = {0.0}, size = 0.0;
+        double own[NET_OUT_COUNT] = {0.0}, size = 0.0;
         add_ranges(&record[i], own);
-        for (int o = 0; o < 2; o++) {
+        for (int k = 0; k < 2; k++) {
+            const int o = k == 0 ? NET_OUT_CL : NET_OUT_CM;
             size += all[o] > 0.0 ? 0.5 * moving * own[o] / all[o] : 0.0;
         }
         size = flow_record_moves(&record[i]) ? size : 1.0; /* small, but nothing to measure by */
         weight[i] = def->balance > 0.0 ? 1.0 / (size + num_sq(def->balance)) : 1.0;
     }
+    for (int o = 0; o < NET_OUT_COUNT; o++) {
+        range[o] = sqrt(all[o] / moving);
+    }
 }
 
-static void level(struct sample_set *s)
+/* Returns the factor. */
+static double level(struct sample_set *s)
 {
     double sum = 0.0;
     for (int k = 0; k < s->n; k++) {
@@ -131,11 +147,12 @@ static void level(struct sample_set *s)
     for (int k = 0; k < s->n; k++) {
         s->weight[k] *= s->n / sum;
     }
+    return s->n / sum;
 }
 
 static enum status add_record(const struct dataset_def *def, const struct polar *polar,
-                              const struct flow_record *r, bool held, double weight,
-                              struct dataset *d)
+                              const struct flow_record *r, double weight, struct sample_set *s,
+                              int *outside_polar)
 {
     double *x = malloc((size_t)r->n * (NET_IN_COUNT + NET_OUT_COUNT) * sizeof *x);
     if (x == NULL) {
@@ -150,9 +167,10 @@ static enum status add_record(const struct dataset_def *def, const struct polar 
     for (int i = flow_record_first(r); st == ST_OK && i < r->n; i += stride(def, r)) {
         const double *in = x + num_at(0, i, NET_IN_COUNT);
         const double alpha = in[NET_IN_ALPHA];
-        d->outside_polar += polar_at(polar, alpha, r->value[num_at(i, FLOW_W, r->n)]).outside;
-        put(in, y + num_at(0, i, NET_OUT_COUNT), weight, held ? &d->held : &d->trained);
+        *outside_polar += polar_at(polar, alpha, r->value[num_at(i, FLOW_W, r->n)]).outside;
+        put(in, y + num_at(0, i, NET_OUT_COUNT), weight, s);
     }
+    end_group(s);
     free(x);
     return st;
 }
@@ -174,6 +192,9 @@ static enum status add_anchors(const struct dataset_def *def, const struct polar
         section.input[NET_IN_MEAN_ALPHA] = at.theta;
         put(section.input, y, 1.0, s);
     }
+    if (def->anchors > 0) {
+        end_group(s);
+    }
     moving_section_done(&section);
     return st;
 }
@@ -185,14 +206,18 @@ static enum status add_records(const struct dataset_def *def, int n_record,
     double *weight = malloc((size_t)n_record * sizeof *weight);
     enum status st = weight != NULL ? polar_create(def->polar, &polar) : ST_NO_MEMORY;
     if (st == ST_OK) {
-        weigh(def, n_record, record, weight);
+        weigh(def, n_record, record, weight, d->unit);
     }
     for (int i = 0; i < n_record && st == ST_OK; i++) {
-        st = add_record(def, polar, &record[i], d->is_held[i], weight[i], d);
+        st = add_record(def, polar, &record[i], weight[i], d->is_held[i] ? &d->held : &d->trained,
+                        &d->outside_polar);
     }
     if (st == ST_OK) {
-        level(&d->trained);
-        level(&d->held);
+        const double root = sqrt(level(&d->trained));
+        (void)level(&d->held);
+        for (int o = 0; o < NET_OUT_COUNT; o++) {
+            d->unit[o] *= root;
+        }
         st = add_anchors(def, polar, &d->trained);
     }
     polar_destroy(polar);
@@ -223,8 +248,8 @@ enum status dataset_build(const struct dataset_def *def, int n_record,
     for (int i = 0; i < n_record && st == ST_OK; i++) {
         count[d.is_held[i]] += 2 * taken(def, &record[i]);
     }
-    st = st == ST_OK ? room(count[0], &d.trained) : st;
-    st = st == ST_OK ? room(count[1], &d.held) : st;
+    st = st == ST_OK ? room(count[0], n_record + 1, &d.trained) : st;
+    st = st == ST_OK ? room(count[1], n_record, &d.held) : st;
     st = st == ST_OK ? add_records(def, n_record, record, &d) : st;
     if (st == ST_OK) {
         *out = d;
@@ -239,9 +264,11 @@ void dataset_done(struct dataset *d)
     free(d->trained.x);
     free(d->trained.y);
     free(d->trained.weight);
+    free(d->trained.end);
     free(d->held.x);
     free(d->held.y);
     free(d->held.weight);
+    free(d->held.end);
     free(d->is_held);
     *d = (struct dataset){0};
 }

@@ -95,6 +95,8 @@ struct sample_set {
     double *x;      /* (NET_IN_COUNT x n), input fastest */
     double *y;      /* dynamic increments (NET_OUT_COUNT x n) */
     double *weight; /* (n), one in the mean */
+    int n_group;    /* records, and behind those that are trained the anchors */
+    int *end;       /* first sample behind each group (n_group) */
 };
 struct dataset {
     struct sample_set trained, held;
@@ -102,6 +104,10 @@ struct dataset {
     bool *is_held; /* (n_record) */
     int n_held;
     int outside_polar; /* samples outside the table, mirrored ones not counted */
+    /* What an error by the whole range of its record is before it is squared and weighed: the
+     * ranges of the moving records (rms) and the root of the factor that makes the mean weight of
+     * the trained samples one. */
+    double unit[NET_OUT_COUNT];
 };
 
 /* Draws `n` records of those that move for validation, by whole record, and makes the samples of

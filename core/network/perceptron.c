@@ -1,6 +1,5 @@
 #include "core/network/perceptron.h"
 
-#include "core/aero/tanh_lanes.h"
 #include "core/num.h"
 #include "core/random.h"
 #include "core/simd.h"

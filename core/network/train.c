@@ -52,6 +52,9 @@ void train_def_check(const struct train_def *def, int n_hidden, struct failure_l
     if (!(def->decay >= 0.0 && def->decay <= 1.0)) {
         range_refuse(out, "--decay", "0..1", def->decay);
     }
+    if (!(def->tolerance >= 0.0 && def->tolerance <= 1.0)) {
+        range_refuse(out, "--tolerance", "0..1", def->tolerance);
+    }
 }
 
 enum status train_curve_init(int epochs, struct train_curve *c)
@@ -92,8 +95,7 @@ bool train_is_cancelled(const struct sim_control *control, int epoch, int epochs
 bool train_note(const struct train_problem *problem, const struct train_def *def, double trained,
                 const double *p, double *best, struct train_curve *curve)
 {
-    const double held = perceptron_error(&problem->shape, p, problem->n_held, problem->held_x,
-                                         problem->held_t, problem->held_w);
+    const double held = train_objective_at(&problem->shape, p, &problem->held, problem->tolerance);
     const bool ended = train_curve_add(curve, def->patience, trained, held);
     if (curve->best == curve->n - 1) {
         memcpy(best, p, (size_t)perceptron_count(&problem->shape) * sizeof *best);
@@ -101,67 +103,76 @@ bool train_note(const struct train_problem *problem, const struct train_def *def
     return ended;
 }
 
-/* Samples of a problem in the making. */
-struct scaled {
-    int n;
-    double *x, *t, *w;
-};
-
-/* Every `stride`-th sample, the rows of the net's inputs and outputs, scaled; into the block at
- * `next`, which moves on. */
-static struct scaled scale(const struct sample_set *s, const struct network_def *net, int stride,
-                           double **next)
+/* Every `stride`-th sample, the rows of the net's inputs and outputs, scaled, into the blocks at
+ * *next and *end, which move on. */
+static struct train_part scale(const struct sample_set *s, const struct network_def *net,
+                               int stride, double **next, int **end)
 {
-    struct scaled out = {.n = (s->n + stride - 1) / stride, .x = *next};
-    out.t = out.x + (ptrdiff_t)out.n * net->n_in;
-    out.w = out.t + (ptrdiff_t)out.n * net->n_out;
-    *next = out.w + out.n;
-    for (int k = 0; k < out.n; k++) {
+    const int n = s->n / stride;
+    double *x = *next, *t = x + (ptrdiff_t)n * net->n_in, *w = t + (ptrdiff_t)n * net->n_out;
+    for (int k = 0; k < n; k++) {
         for (int i = 0; i < net->n_in; i++) {
             const double v = s->x[num_at((int)net->input[i], k * stride, NET_IN_COUNT)];
-            out.x[num_at(i, k, net->n_in)] = (v - net->in_offset[i]) / net->in_scale[i];
+            x[num_at(i, k, net->n_in)] = (v - net->in_offset[i]) / net->in_scale[i];
         }
         for (int o = 0; o < net->n_out; o++) {
             const double v = s->y[num_at((int)net->output[o], k * stride, NET_OUT_COUNT)];
-            out.t[num_at(o, k, net->n_out)] = (v - net->out_offset[o]) / net->out_scale[o];
+            t[num_at(o, k, net->n_out)] = (v - net->out_offset[o]) / net->out_scale[o];
         }
-        out.w[k] = s->weight[k * stride];
+        w[k] = s->weight[k * stride];
     }
-    return out;
+    for (int g = 0; g < s->n_group; g++) {
+        (*end)[g] = s->end[g] / stride;
+    }
+    const struct train_part part = {
+        .n = n, .x = x, .t = t, .w = w, .n_group = s->n_group, .end = *end};
+    *next = w + n;
+    *end += s->n_group;
+    return part;
+}
+
+/* From a share of the range to the mean square of scaled outputs. */
+static double scaled_tolerance(const struct dataset *data, const struct network_def *net,
+                               double share)
+{
+    double sum = 0.0;
+    for (int o = 0; o < net->n_out; o++) {
+        sum += num_sq(share * data->unit[net->output[o]] / net->out_scale[o]);
+    }
+    return sum / net->n_out;
 }
 
 enum status train_problem_init(const struct dataset *data, const struct network_def *net,
-                               bool symmetric, struct train_problem *p)
+                               const struct train_def *def, struct train_problem *p)
 {
     const size_t rows = (size_t)(net->n_in + net->n_out + 1);
     double *block = malloc((size_t)(data->trained.n + data->held.n) * rows * sizeof *block);
-    if (block == NULL) {
+    int *ends = malloc((size_t)(data->trained.n_group + data->held.n_group) * sizeof *ends);
+    if (block == NULL || ends == NULL) {
+        free(block);
+        free(ends);
         return ST_NO_MEMORY;
     }
     double *next = block;
-    const int stride = symmetric ? 2 : 1; /* what is odd anyway needs no mirror images */
-    const struct scaled trained = scale(&data->trained, net, stride, &next);
-    const struct scaled held = scale(&data->held, net, stride, &next);
+    int *end = ends;
+    const int stride = def->symmetric ? 2 : 1; /* what is odd anyway needs no mirror images */
     *p = (struct train_problem){.shape = {.n_in = net->n_in,
                                           .n_hidden = net->n_hidden / stride,
                                           .n_out = net->n_out,
-                                          .paired = symmetric},
-                                .n_trained = trained.n,
-                                .n_held = held.n,
-                                .trained_x = trained.x,
-                                .trained_t = trained.t,
-                                .trained_w = trained.w,
-                                .held_x = held.x,
-                                .held_t = held.t,
-                                .held_w = held.w,
-                                .block = block};
+                                          .paired = def->symmetric},
+                                .trained = scale(&data->trained, net, stride, &next, &end),
+                                .held = scale(&data->held, net, stride, &next, &end),
+                                .tolerance = scaled_tolerance(data, net, def->tolerance),
+                                .block = block,
+                                .end = ends};
     return ST_OK;
 }
 
 void train_problem_done(struct train_problem *p)
 {
     free(p->block);
-    *p = (struct train_problem){.n_trained = 0};
+    free(p->end);
+    *p = (struct train_problem){.tolerance = 0.0};
 }
 
 /* The neurons of p, a pair as two neurons, into the arrays of the network. */
@@ -238,7 +249,7 @@ enum status train_network(const struct dataset *data, const struct train_def *de
         return ST_INVALID;
     }
     struct train_problem problem;
-    enum status st = train_problem_init(data, net, def->symmetric, &problem);
+    enum status st = train_problem_init(data, net, def, &problem);
     if (st == ST_OK) {
         st = optimise(&problem, def, control, net, curve);
         train_problem_done(&problem);

@@ -9,7 +9,7 @@
 
 #include "core/control.h"
 #include "core/network/dataset.h"
-#include "core/network/perceptron.h"
+#include "core/network/train_objective.h"
 
 /* Levenberg-Marquardt on all samples; Adam on small batches, as networks are mostly trained. */
 enum train_optimiser { TRAIN_LM, TRAIN_ADAM, TRAIN_OPTIMISERS };
@@ -28,6 +28,10 @@ struct train_def {
     /* The network is odd by construction (perceptron.h): half as many samples and parameters for as
      * many neurons, which must be even; for outputs c_l and c_m alone. */
     bool symmetric;
+    /* Misfit from which on a record counts only by its logarithm (train_objective.h), as a share of
+     * its range; where no balance weighs the records (dataset.h), of the ranges of all. 0: plain
+     * squares. */
+    double tolerance;
 };
 enum { TRAIN_EPOCHS_MAX = 100000 };
 
@@ -37,7 +41,7 @@ void train_def_defaults(enum train_optimiser optimiser, struct train_def *def);
 /* Appends what is out of range; pointers are those of the command line's options. */
 void train_def_check(const struct train_def *def, int n_hidden, struct failure_list *out);
 
-/* Mean square errors of the scaled outputs after each epoch; entry 0 is the start. */
+/* Objectives (train_objective.h) of the scaled outputs after each epoch; entry 0 is the start. */
 struct train_curve {
     int n;    /* 1..epochs + 1 */
     int best; /* entry with the least error of the records held out: the network that is kept */
@@ -50,18 +54,18 @@ void train_curve_done(struct train_curve *c);
  * the patience has run out. */
 bool train_curve_add(struct train_curve *c, int patience, double trained, double held);
 
-/* What an optimiser works on: scaled samples, x (n_in x n) and t (n_out x n), and their weights. */
+/* What an optimiser works on. */
 struct train_problem {
     struct perceptron shape;
-    int n_trained, n_held;
-    const double *trained_x, *trained_t, *held_x, *held_t;
-    const double *trained_w, *held_w; /* (n); NULL: all alike */
-    double *block;                    /* holds these when train_problem_init has made them, owned */
+    struct train_part trained, held;
+    double tolerance; /* a mean square of scaled outputs, weighed */
+    double *block;    /* holds the samples when train_problem_init has made them, owned */
+    int *end;         /* and the ends of their groups */
 };
-/* From a dataset, whose weights it borrows, and a network whose inputs, outputs, n_hidden and
- * scaling are set. ST_NO_MEMORY. */
+/* From a dataset and a network whose inputs, outputs, n_hidden and scaling are set. ST_NO_MEMORY.
+ */
 MUST_CHECK enum status train_problem_init(const struct dataset *data, const struct network_def *net,
-                                          bool symmetric, struct train_problem *p);
+                                          const struct train_def *def, struct train_problem *p);
 /* Accepts a zeroed struct. */
 void train_problem_done(struct train_problem *p);
 

@@ -33,9 +33,9 @@ static enum status batch_init(const struct perceptron *s, int n, struct batch *b
     return ST_OK;
 }
 
-/* Gradient of the mean square error of n samples into b->g. */
-static void gradient(const struct train_problem *t, int n, const int *sample, const double *p,
-                     struct batch *b)
+/* Gradient of the mean square error of n samples, whose weights stand in w, into b->g. */
+static void gradient(const struct train_problem *t, const double *w, int n, const int *sample,
+                     const double *p, struct batch *b)
 {
     const struct perceptron *s = &t->shape;
     const int count = perceptron_count(s), rows = perceptron_basis_rows(s);
@@ -43,11 +43,11 @@ static void gradient(const struct train_problem *t, int n, const int *sample, co
     const double factor = 2.0 / ((double)n * s->n_out);
     for (int i = 0; i < n; i++) {
         const int k = sample[i];
-        memcpy(b->x + num_at(0, i, s->n_in), t->trained_x + num_at(0, k, s->n_in),
+        memcpy(b->x + num_at(0, i, s->n_in), t->trained.x + num_at(0, k, s->n_in),
                (size_t)s->n_in * sizeof *b->x);
-        memcpy(b->t + num_at(0, i, s->n_out), t->trained_t + num_at(0, k, s->n_out),
+        memcpy(b->t + num_at(0, i, s->n_out), t->trained.t + num_at(0, k, s->n_out),
                (size_t)s->n_out * sizeof *b->t);
-        b->w[i] = t->trained_w != NULL ? t->trained_w[k] : 1.0;
+        b->w[i] = w[k];
     }
     perceptron_basis(s, p, n, b->x, b->t, b->w, b->z);
     memset(b->ze, 0, (size_t)rows * (size_t)s->n_out * sizeof *b->ze);
@@ -67,9 +67,12 @@ static void gradient(const struct train_problem *t, int n, const int *sample, co
 
 static enum status run(const struct train_problem *problem, const struct train_def *def,
                        const struct sim_control *control, struct adam *adam, int *order,
-                       struct batch *b, double *p, double *best, struct train_curve *curve)
+                       struct batch *b, double *w, double *p, double *best,
+                       struct train_curve *curve)
 {
-    const int n = problem->n_trained;
+    const struct train_part *part = &problem->trained;
+    const int n = part->n;
+    double *group_error = w + n;
     uint64_t seed = ~def->seed; /* another sequence than that of the start */
     enum status st = ST_OK;
     bool ended = false;
@@ -78,11 +81,13 @@ static enum status run(const struct train_problem *problem, const struct train_d
             random_shuffle(n, &seed, order);
         }
         for (int first = 0; first < n && epoch > 0; first += def->batch) {
-            gradient(problem, n - first < def->batch ? n - first : def->batch, order + first, p, b);
+            gradient(problem, w, n - first < def->batch ? n - first : def->batch, order + first, p,
+                     b);
             adam_step(adam, b->g, p);
         }
-        const double error = perceptron_error(&problem->shape, p, n, problem->trained_x,
-                                              problem->trained_t, problem->trained_w);
+        train_group_errors(&problem->shape, p, part, 0, part->n_group, group_error);
+        train_weights(part, problem->tolerance, group_error, w); /* of the next epoch */
+        const double error = train_objective(part, problem->tolerance, group_error);
         ended = train_note(problem, def, error, p, best, curve);
         st = !isfinite(error)                                  ? ST_NOT_FINITE
              : train_is_cancelled(control, epoch, def->epochs) ? ST_CANCELLED
@@ -95,20 +100,23 @@ enum status train_adam(const struct train_problem *problem, const struct train_d
                        const struct sim_control *control, double *p, double *best,
                        struct train_curve *curve)
 {
-    const int n = problem->n_trained, count = perceptron_count(&problem->shape);
+    const int n = problem->trained.n, count = perceptron_count(&problem->shape);
     struct adam adam = {0};
     int *order = malloc((size_t)n * sizeof *order);
+    double *w = malloc((size_t)(n + problem->trained.n_group) * sizeof *w);
     struct batch batch = {.x = NULL};
-    enum status st = order != NULL ? batch_init(&problem->shape, def->batch, &batch) : ST_NO_MEMORY;
+    enum status st =
+        order != NULL && w != NULL ? batch_init(&problem->shape, def->batch, &batch) : ST_NO_MEMORY;
     st = st == ST_OK ? adam_init(count, def->rate, def->decay, &adam) : st;
     if (st == ST_OK) {
         for (int i = 0; i < n; i++) {
             order[i] = i;
         }
-        st = run(problem, def, control, &adam, order, &batch, p, best, curve);
+        st = run(problem, def, control, &adam, order, &batch, w, p, best, curve);
     }
     adam_done(&adam);
     free(order);
+    free(w);
     free(batch.x);
     return st;
 }

@@ -15,13 +15,13 @@ static const double damping_factor = 10.0;
 /* Without progress from here on, relative to the objective. */
 static const double progress_least = 1e-12;
 
-/* Half of the samples: what is summed over each is added up at the end, so that two threads give
- * the bits of one. */
+/* Half of the samples, by whole groups: what is summed over each is added up at the end, so that
+ * two threads give the bits of one. */
 struct half {
-    const struct train_problem *problem;
-    int first, n;    /* samples */
+    struct lm *lm;
+    int first, last; /* groups first..last - 1 */
+    int begin, end;  /* their samples */
     const double *p; /* parameters of the sum under way */
-    double error;    /* their mean square */
     double *z;       /* basis of one block (rows x BLOCK) */
     double *work;    /* of its products (rows x BLOCK) */
     double *zz;      /* z z' (rows x rows), lower triangle */
@@ -37,17 +37,31 @@ struct lm {
     double *slope; /* half the gradient of the objective (count) */
     double *step;  /* (count) */
     double *trial; /* (count) */
+    double *error; /* mean square of each group at the last parameters asked for (n_group) */
+    double *w;     /* weights of the samples in the normal equations (n) */
     struct half half[2];
 };
+
+/* The group at whose end about half of the samples are. */
+static int middle_group(const struct train_part *part)
+{
+    int g = 1;
+    while (g < part->n_group && part->end[g - 1] < part->n / 2) {
+        g++;
+    }
+    return g;
+}
 
 static enum status lm_init(const struct train_problem *problem, const struct train_def *def,
                            const struct sim_control *control, struct lm *s)
 {
-    const int count = perceptron_count(&problem->shape);
+    const struct train_part *part = &problem->trained;
+    const int count = perceptron_count(&problem->shape), middle = middle_group(part);
     const size_t n = (size_t)count, square = n * n;
     const size_t rows = (size_t)perceptron_basis_rows(&problem->shape);
     const size_t of_half = 2 * rows * BLOCK + rows * rows;
-    double *block = malloc((2 * square + 3 * n + 2 * of_half) * sizeof *block);
+    const size_t of_samples = (size_t)(part->n_group + part->n);
+    double *block = malloc((2 * square + 3 * n + 2 * of_half + of_samples) * sizeof *block);
     if (block == NULL) {
         return ST_NO_MEMORY;
     }
@@ -60,16 +74,20 @@ static enum status lm_init(const struct train_problem *problem, const struct tra
                      .slope = block + 2 * square,
                      .step = block + 2 * square + n,
                      .trial = block + 2 * square + 2 * n};
+    double *next = block + 2 * square + 3 * n;
     for (int h = 0; h < 2; h++) {
-        double *own = block + 2 * square + 3 * n + (size_t)h * of_half;
-        const int middle = problem->n_trained / 2;
-        s->half[h] = (struct half){.problem = problem,
+        s->half[h] = (struct half){.lm = s,
                                    .first = h == 0 ? 0 : middle,
-                                   .n = h == 0 ? middle : problem->n_trained - middle,
-                                   .z = own,
-                                   .work = own + rows * BLOCK,
-                                   .zz = own + 2 * rows * BLOCK};
+                                   .last = h == 0 ? middle : part->n_group,
+                                   .begin = h == 0 ? 0 : part->end[middle - 1],
+                                   .end = h == 0 ? part->end[middle - 1] : part->n,
+                                   .z = next,
+                                   .work = next + rows * BLOCK,
+                                   .zz = next + 2 * rows * BLOCK};
+        next += of_half;
     }
+    s->error = next;
+    s->w = next + part->n_group;
     return ST_OK;
 }
 
@@ -80,19 +98,23 @@ static void on_both(struct lm *s, void (*work)(void *), const double *p)
     sim_control_both(s->control, work, &s->half[0], &s->half[1]);
 }
 
-/* The samples from `first` on; NULL: all weigh alike. */
-static const double *weights_from(const struct train_problem *t, int first)
-{
-    return t->trained_w != NULL ? t->trained_w + first : NULL;
-}
-
-/* Mean square error of the trained samples and what the decay adds to it. */
+/* What the samples say, and that with what the decay adds to it. */
 struct objective {
     double error, total;
 };
 
-static struct objective with_decay(const struct lm *s, double error, const double *p)
+static void sum_errors(void *half)
 {
+    const struct half *h = half;
+    const struct train_problem *t = h->lm->problem;
+    train_group_errors(&t->shape, h->p, &t->trained, h->first, h->last, h->lm->error);
+}
+
+static struct objective objective_at(struct lm *s, const double *p)
+{
+    const struct train_problem *t = s->problem;
+    on_both(s, sum_errors, p);
+    const double error = train_objective(&t->trained, t->tolerance, s->error);
     double sum = 0.0;
     for (int i = 0; i < s->count; i++) {
         sum += num_sq(p[i]);
@@ -100,49 +122,28 @@ static struct objective with_decay(const struct lm *s, double error, const doubl
     return (struct objective){.error = error, .total = error + s->weight * sum};
 }
 
-static void sum_errors(void *half)
-{
-    struct half *h = half;
-    const struct train_problem *t = h->problem;
-    h->error = h->n == 0 ? 0.0
-                         : perceptron_error(&t->shape, h->p, h->n,
-                                            t->trained_x + num_at(0, h->first, t->shape.n_in),
-                                            t->trained_t + num_at(0, h->first, t->shape.n_out),
-                                            weights_from(t, h->first));
-}
-
-static struct objective objective_at(struct lm *s, const double *p)
-{
-    on_both(s, sum_errors, p);
-    double sum = 0.0;
-    for (int h = 0; h < 2; h++) {
-        sum += s->half[h].error * s->half[h].n;
-    }
-    return with_decay(s, sum / s->problem->n_trained, p);
-}
-
 static void sum_products(void *half)
 {
     const struct half *h = half;
-    const struct train_problem *t = h->problem;
+    const struct train_problem *t = h->lm->problem;
+    const struct train_part *part = &t->trained;
     const simd_gram_fn gram_add = simd_gram(simd_level_of_machine());
     const int rows = perceptron_basis_rows(&t->shape);
     memset(h->zz, 0, (size_t)rows * (size_t)rows * sizeof *h->zz);
-    for (int done = 0; done < h->n; done += BLOCK) {
-        const int first = h->first + done, n = h->n - done < BLOCK ? h->n - done : BLOCK;
-        perceptron_basis(&t->shape, h->p, n, t->trained_x + num_at(0, first, t->shape.n_in),
-                         t->trained_t + num_at(0, first, t->shape.n_out), weights_from(t, first),
-                         h->z);
+    for (int first = h->begin; first < h->end; first += BLOCK) {
+        const int n = h->end - first < BLOCK ? h->end - first : BLOCK;
+        perceptron_basis(&t->shape, h->p, n, part->x + num_at(0, first, t->shape.n_in),
+                         part->t + num_at(0, first, t->shape.n_out), h->lm->w + first, h->z);
         gram_add(rows, n, h->z, h->work, h->zz);
     }
 }
 
-/* J'J and J'e over all samples, divided by the number of residuals. */
+/* J'J and J'e over all samples, divided by the number of residuals, with the weights w. */
 static void normal_equations(struct lm *s, const double *p)
 {
     const struct perceptron *shape = &s->problem->shape;
     const int rows = perceptron_basis_rows(shape);
-    const double factor = 1.0 / ((double)s->problem->n_trained * shape->n_out);
+    const double factor = 1.0 / ((double)s->problem->trained.n * shape->n_out);
     on_both(s, sum_products, p);
     double *zz = s->half[0].zz;
     for (ptrdiff_t i = 0; i < num_at(0, rows, rows); i++) {
@@ -177,9 +178,11 @@ static enum status solve(struct lm *s, double damping, const double *p)
     return ST_OK;
 }
 
-/* One epoch: raises the damping until the objective falls. False when it does not any more. */
+/* One epoch: raises the damping until the objective falls. False when it does not any more.
+ * s->error is that at p, before and, where the objective fell, after. */
 static bool descend(struct lm *s, double *damping, double *p, struct objective *now)
 {
+    train_weights(&s->problem->trained, s->problem->tolerance, s->error, s->w);
     normal_equations(s, p);
     for (; *damping <= damping_most; *damping *= damping_factor) {
         if (solve(s, *damping, p) != ST_OK) {

@@ -196,6 +196,7 @@ static void test_refusals(void **state)
         {CASE(",\"folds\":1"), "/training/folds", "out_of_range"},
         {CASE(",\"members\":65"), "/training/members", "out_of_range"},
         {CASE(",\"balance\":2"), "/training/balance", "out_of_range"},
+        {CASE(",\"tolerance\":-1"), "/training/tolerance", "out_of_range"},
         {CASE(",\"symmetric\":1"), "/training/symmetric", "wrong_type"},
         {CASE(",\"symmetric\":true"), "/training/hidden", "out_of_range"},
         {"{\"schema_version\":1,\"kind\":\"training\",\"training\":{\"network\":\"odd\","

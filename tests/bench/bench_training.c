@@ -36,11 +36,11 @@ static bool dump(const char *path, const struct train_problem *p, int count, con
     if (file == NULL) {
         return false;
     }
-    const double head[3] = {p->n_trained, p->n_held, count};
-    const size_t n_trained = (size_t)p->n_trained, n_held = (size_t)p->n_held;
-    const bool done = put(file, 3, head) && put(file, n_trained * IN, p->trained_x) &&
-                      put(file, n_trained * OUT, p->trained_t) &&
-                      put(file, n_held * IN, p->held_x) && put(file, n_held * OUT, p->held_t) &&
+    const double head[3] = {p->trained.n, p->held.n, count};
+    const size_t n_trained = (size_t)p->trained.n, n_held = (size_t)p->held.n;
+    const bool done = put(file, 3, head) && put(file, n_trained * IN, p->trained.x) &&
+                      put(file, n_trained * OUT, p->trained.t) &&
+                      put(file, n_held * IN, p->held.x) && put(file, n_held * OUT, p->held.t) &&
                       put(file, (size_t)count, start);
     return fclose(file) == 0 && done;
 }
@@ -93,9 +93,11 @@ static enum status run(const struct dataset_def *def, const struct records *reco
     struct dataset data = {0};
     enum status st = dataset_build(def, records->n, records->record, problems, &data);
     if (st == ST_OK) {
+        struct train_def plain;
         struct train_problem problem;
+        train_def_defaults(TRAIN_LM, &plain);
         dataset_scaling(&data.trained, &net, problems);
-        st = train_problem_init(&data, &net, false, &problem);
+        st = train_problem_init(&data, &net, &plain, &problem);
         if (st == ST_OK) {
             st = train(&problem, path);
             train_problem_done(&problem);

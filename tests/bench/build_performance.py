@@ -125,8 +125,7 @@ def limit_section(binary, head, numpy):
            "Additions, multiplications and divisions of a step, counted from the formulas:", ""]
     out += table(("part", "operations"), [(k, f"{v:,.0f}") for k, v in parts] + [("sum", f"{total:,.0f}")])
     ideal = total / (1e3 * float(peak))
-    out += [f"One core does {float(peak):.0f} Gflop/s in the widest vectors ({widest}; multiplications and additions apart, as the core "
-            f"computes so that every machine gives the same bits; `bench_peak`), so the step cannot cost less than {ideal:.2f} µs: "
+    out += [f"One core does {float(peak):.0f} Gflop/s in the widest vectors ({widest}, fused; `bench_peak`), so the step cannot cost less than {ideal:.2f} µs: "
             f"it reaches {100 * ideal / head['us_per_step']:.0f} % of that limit. What is missing: division and table look-up, chains of "
             "dependent sums at 16 stations, and everything that is no arithmetic.", ""]
     out += [f"The same step in NumPy {numpy['version']}, vectorised over the stations (`step_numpy.py`), in the same run: "

@@ -154,7 +154,7 @@ class Train(unittest.TestCase):
         self.assertEqual(aerom(*other, "--force").returncode, 0)
 
     def test_a_symmetric_network_is_made_of_pairs(self):
-        result = self.train("--symmetric", "--hidden", 4, "--balance", 0.2, "--epochs", 10)
+        result = self.train("--symmetric", "--hidden", 4, "--balance", 0.2, "--tolerance", 0.1, "--epochs", 10)
         self.assertEqual(result.returncode, 0, result.stderr)
         document = json.loads(self.output.read_text())
         self.assertEqual((document["hidden"], document["b2"]), (4, [0, 0]))
@@ -162,8 +162,8 @@ class Train(unittest.TestCase):
         self.assertEqual(document["b1"][0::2], [-b for b in document["b1"][1::2]])
         self.assertEqual(document["input_offset"], [0] * 4)
         self.assertEqual(document["hull_min"], [-h for h in document["hull_max"]])
-        self.assertEqual((document["provenance"]["symmetric"], document["provenance"]["balance"]),
-                         (True, 0.2))
+        self.assertEqual([document["provenance"][key] for key in ("symmetric", "balance", "tolerance")],
+                         [True, 0.2, 0.1])
 
     def test_adam_and_another_seed_make_another_network(self):
         texts = set()
@@ -184,7 +184,7 @@ class Train(unittest.TestCase):
                                 (("--lags", "1,2,3,4,5"), "--lags"), (("--lags", 0), "/lags_c_v/0"),
                                 (("--members", 0), "--members"), (("--folds", 1), "--folds"),
                                 (("--samples", 0), "--samples"), (("--anchors", -1), "--anchors"),
-                                (("--balance", 2), "--balance"),
+                                (("--balance", 2), "--balance"), (("--tolerance", -1), "--tolerance"),
                                 (("--symmetric", "--hidden", 5), "/hidden"),
                                 (("--inputs", "alpha_rate,alpha_rate"), "--inputs"),
                                 (("--inputs", "plunge_rate"), "plunge_rate")):

@@ -250,6 +250,21 @@ static void samples_weigh_by_the_range_of_their_record(void **state)
         assert_near_rel(sum, s->n - 2.0 * def.anchors, 1e-12);
         assert_near_rel(most / least, balanced ? 16.0 : 1.0, 1e-6);
         assert_near_abs(s->weight[s->n - 1], 1.0, 0.0);
+        /* Records in the order in which they were given, each as long as the others, then the
+         * anchors. */
+        assert_int_equal(s->n_group, 4 - d.n_held + 1);
+        for (int g = 0; g < s->n_group - 1; g++) {
+            assert_int_equal(s->end[g], (g + 1) * s->end[0]);
+        }
+        assert_int_equal(s->end[s->n_group - 1], s->n);
+        /* A tenth of the range of a small record, weighed, is a tenth of the unit. */
+        const double range = flow_record_range(&record[3], FLOW_CL, flow_record_first(&record[3]));
+        if (balanced) {
+            assert_near_rel(sqrt(most) * 0.1 * range, 0.1 * d.unit[NET_OUT_CL], 1e-6);
+        } else {
+            const double mean_square = 0.5 * (1.0 + 1.0 / 16.0); /* of the large ones' ranges */
+            assert_near_rel(d.unit[NET_OUT_CL], 4.0 * range * sqrt(mean_square), 1e-6);
+        }
         dataset_done(&d);
     }
     for (int i = 0; i < 4; i++) {

@@ -15,6 +15,7 @@ enum {
     HIDDEN = 9,
     OUT = 2,
     SAMPLES = 600,
+    GROUPS = 4,
     COUNT = IN * HIDDEN + HIDDEN + OUT * HIDDEN + OUT
 };
 
@@ -181,9 +182,19 @@ static void pairs_are_odd(void **state)
 /* Samples of a known network. */
 struct known {
     double p[COUNT], x[IN * SAMPLES], t[OUT * SAMPLES];
+    int end[2][GROUPS]; /* of the trained samples, of those held out */
     struct train_problem problem;
     struct train_curve curve;
 };
+
+/* n samples that weigh alike, in GROUPS groups of different size whose ends come into end. */
+static struct train_part part_of(int n, const double *x, const double *t, int *end)
+{
+    for (int g = 0; g < GROUPS; g++) {
+        end[g] = n * (g + 1) * (g + 1) / (GROUPS * GROUPS);
+    }
+    return (struct train_part){.n = n, .x = x, .t = t, .n_group = GROUPS, .end = end};
+}
 
 static struct known *known_new(int epochs)
 {
@@ -194,13 +205,10 @@ static struct known *known_new(int epochs)
         plain(&shape, k->p, k->x + num_at(0, s, IN), k->t + num_at(0, s, OUT));
     }
     const int n = SAMPLES * 4 / 5;
-    k->problem = (struct train_problem){.shape = shape,
-                                        .n_trained = n,
-                                        .n_held = SAMPLES - n,
-                                        .trained_x = k->x,
-                                        .trained_t = k->t,
-                                        .held_x = k->x + num_at(0, n, IN),
-                                        .held_t = k->t + num_at(0, n, OUT)};
+    k->problem = (struct train_problem){
+        .shape = shape,
+        .trained = part_of(n, k->x, k->t, k->end[0]),
+        .held = part_of(SAMPLES - n, k->x + num_at(0, n, IN), k->t + num_at(0, n, OUT), k->end[1])};
     k->curve.trained = calloc((size_t)epochs + 1, sizeof(double));
     k->curve.held = calloc((size_t)epochs + 1, sizeof(double));
     return k;
@@ -272,19 +280,15 @@ static void lm_gives_the_same_bits_with_its_work_in_halves(void **state)
 static void the_decay_is_a_ridge(void **state)
 {
     (void)state;
-    enum { N = 8 };
+    enum { N = 32 };
     const struct perceptron one = {.n_in = 1, .n_hidden = 1, .n_out = 1};
     double x[N] = {0.0}, t[N], p[4] = {0.0}, best[4], trained[51], held[51];
     for (int i = 0; i < N; i++) {
         t[i] = 2.0;
     }
-    const struct train_problem problem = {.shape = one,
-                                          .n_trained = N,
-                                          .n_held = N,
-                                          .trained_x = x,
-                                          .trained_t = t,
-                                          .held_x = x,
-                                          .held_t = t};
+    int end[GROUPS];
+    const struct train_part all = part_of(N, x, t, end);
+    const struct train_problem problem = {.shape = one, .trained = all, .held = all};
     struct train_def def;
     struct train_curve curve = {.trained = trained, .held = held};
     train_def_defaults(TRAIN_LM, &def);
@@ -294,6 +298,98 @@ static void the_decay_is_a_ridge(void **state)
     /* w1, b1 and w2 stay zero: their gradients are products with one another. */
     assert_near_abs(p[3], 2.0 / 1.25, 1e-9);
     assert_near_abs(p[0], 0.0, 1e-12);
+}
+
+/* Mean square errors of the groups by hand, weights and all. */
+static void plain_errors(const struct train_part *part, const double *p, double *error)
+{
+    for (int g = 0, k = 0; g < part->n_group; g++) {
+        const int first = k;
+        error[g] = 0.0;
+        for (; k < part->end[g]; k++) {
+            double y[OUT];
+            plain(&shape, p, part->x + num_at(0, k, IN), y);
+            for (int o = 0; o < OUT; o++) {
+                error[g] += (part->w != NULL ? part->w[k] : 1.0) *
+                            num_sq(y[o] - part->t[num_at(o, k, OUT)]) / OUT;
+            }
+        }
+        error[g] /= k - first;
+    }
+}
+
+/* Without a tolerance the mean square; with one the sum of the logarithms, and its slope is that of
+ * the squares with the weights of train_weights. */
+static void the_objective_counts_records_by_their_logarithm(void **state)
+{
+    (void)state;
+    const double tolerance = 0.05, step = 1e-6;
+    double p[COUNT], w[SAMPLES], error[GROUPS], wanted[GROUPS], own[SAMPLES];
+    struct known *k = known_new(1);
+    struct train_part part = k->problem.trained;
+    for (int i = 0; i < part.n; i++) {
+        own[i] = 0.5 + i % 3;
+    }
+    part.w = own;
+    perceptron_start(&shape, 3, p);
+    plain_errors(&part, p, wanted);
+    train_group_errors(&shape, p, &part, 0, GROUPS, error);
+    double squares = 0.0, logarithms = 0.0;
+    for (int g = 0; g < GROUPS; g++) {
+        const double share = (double)(part.end[g] - (g > 0 ? part.end[g - 1] : 0)) / part.n;
+        assert_near_rel(error[g], wanted[g], 1e-13);
+        squares += share * wanted[g];
+        logarithms += share * tolerance * log(1.0 + wanted[g] / tolerance);
+    }
+    assert_near_rel(train_objective(&part, 0.0, error), squares, 1e-13);
+    assert_near_rel(train_objective(&part, tolerance, error), logarithms, 1e-13);
+    assert_near_rel(train_objective_at(&shape, p, &part, tolerance), logarithms, 1e-13);
+    train_weights(&part, tolerance, error, w);
+    for (int i = 0; i < COUNT; i += 5) {
+        const double at = p[i];
+        double side[2][2];
+        for (int s = 0; s < 2; s++) {
+            p[i] = at + (s == 0 ? -step : step);
+            side[s][0] = train_objective_at(&shape, p, &part, tolerance);
+            side[s][1] = perceptron_error(&shape, p, part.n, part.x, part.t, w);
+        }
+        p[i] = at;
+        assert_near_abs((side[1][0] - side[0][0]) / (2.0 * step),
+                        (side[1][1] - side[0][1]) / (2.0 * step), 1e-8);
+    }
+    known_free(k);
+}
+
+/* A record that nothing explains beside others that are exact, the largest of the groups: with
+ * squares it spoils the network, with a tolerance hardly. The objective never rises. */
+static void a_tolerance_keeps_what_can_be_learnt(void **state)
+{
+    (void)state;
+    double error[2];
+    for (int robust = 0; robust < 2; robust++) {
+        struct train_def def;
+        double p[COUNT], best[COUNT], wild[OUT * SAMPLES];
+        train_def_defaults(TRAIN_LM, &def);
+        def.decay = 0.0;
+        def.epochs = def.patience = 200;
+        struct known *k = known_new(def.epochs);
+        k->problem.tolerance = robust ? 1e-4 : 0.0;
+        random_vector(OUT * SAMPLES, 11, wild);
+        for (int i = OUT * k->end[0][GROUPS - 2]; i < OUT * k->problem.trained.n; i++) {
+            k->t[i] += wild[i];
+        }
+        perceptron_start(&shape, 3, p);
+        assert_ok(train_lm(&k->problem, &def, NULL, p, best, &k->curve));
+        for (int i = 1; i < k->curve.n; i++) {
+            assert_true(k->curve.trained[i] <= k->curve.trained[i - 1]);
+        }
+        const struct train_part *held = &k->problem.held;
+        error[robust] = perceptron_error(&shape, best, held->n, held->x, held->t, NULL);
+        known_free(k);
+    }
+    print_message("held out: %.3g with squares, %.3g with a tolerance\n", error[0], error[1]);
+    assert_true(error[0] > 1e-2);
+    assert_true(error[1] < 1e-3 * error[0]);
 }
 
 static void adam_learns_and_repeats_itself(void **state)
@@ -328,7 +424,7 @@ static void patience_ends_the_training(void **state)
         def.epochs = 200;
         def.patience = 5;
         struct known *k = known_new(def.epochs);
-        for (int i = OUT * k->problem.n_trained; i < OUT * SAMPLES; i++) {
+        for (int i = OUT * k->problem.trained.n; i < OUT * SAMPLES; i++) {
             k->t[i] = -k->t[i];
         }
         perceptron_start(&shape, 3, p);
@@ -336,8 +432,8 @@ static void patience_ends_the_training(void **state)
                                 : train_adam(&k->problem, &def, NULL, p, best, &k->curve));
         assert_true(k->curve.n < def.epochs);
         assert_int_equal(k->curve.n - 1 - k->curve.best, 5);
-        assert_near_rel(perceptron_error(&shape, best, k->problem.n_held, k->problem.held_x,
-                                         k->problem.held_t, NULL),
+        const struct train_part *held = &k->problem.held;
+        assert_near_rel(perceptron_error(&shape, best, held->n, held->x, held->t, NULL),
                         k->curve.held[k->curve.best], 1e-14);
         known_free(k);
     }
@@ -374,11 +470,13 @@ static void ranges_are_checked(void **state)
     assert_int_equal(list->count, 0);
     def.epochs = 0;
     def.decay = (double)NAN;
+    def.tolerance = -1.0;
     train_def_check(&def, LIMIT_NET_HIDDEN + 1, list);
-    assert_int_equal(list->count, 3);
+    assert_int_equal(list->count, 4);
     assert_string_equal(list->item[0].pointer, "--hidden");
     assert_string_equal(list->item[1].pointer, "--epochs");
     assert_string_equal(list->item[2].pointer, "--decay");
+    assert_string_equal(list->item[3].pointer, "--tolerance");
     assert_int_equal(train_optimiser_of("adam"), TRAIN_ADAM);
     assert_int_equal(train_optimiser_of("newton"), TRAIN_OPTIMISERS);
     free(list);
@@ -393,6 +491,8 @@ int main(void)
         cmocka_unit_test(lm_recovers_a_known_network),
         cmocka_unit_test(lm_gives_the_same_bits_with_its_work_in_halves),
         cmocka_unit_test(the_decay_is_a_ridge),
+        cmocka_unit_test(the_objective_counts_records_by_their_logarithm),
+        cmocka_unit_test(a_tolerance_keeps_what_can_be_learnt),
         cmocka_unit_test(adam_learns_and_repeats_itself),
         cmocka_unit_test(patience_ends_the_training),
         cmocka_unit_test(a_raised_flag_cancels),

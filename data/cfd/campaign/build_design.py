@@ -277,6 +277,13 @@ def motion_checks():
     yield sine("pitch_m12_a4_f0.06_coarse", "check_sine", 12, 0.06, 4, mesh="coarse", step=0.01)
 
 
+def drawn_checks():
+    """Every seventh of the small sines and of those of torsion, in the order they are drawn in, on the coarse
+    mesh with half the step: the anchors above are large motions."""
+    for row in (small_sines() + torsion_sines())[3::7]:
+        yield dict(row, name=row["name"] + "_coarse", block="check_drawn", mesh="coarse", step=0.5 * row["step"])
+
+
 def plunge_anchors():
     yield sine("plunge_m4_w0.15_f0.08", "sine_plunge_slow", 4, 0.08, plunge=0.15)
     yield sine("plunge_m8_w0.15_f0.08", "sine_plunge_slow", 8, 0.08, plunge=0.15)
@@ -298,11 +305,11 @@ def document_rows():
     small sines and those of torsion after all other motions, the other Reynolds numbers after everything."""
     place = {"static": (0.0, 0.0), "static_coarse": (0.0, 0.04), "static_plunge": (0.0, 0.05),
              "check_static": (0.0, 0.15), "check_sine_both": (0.0, 0.1), "sine_small": (1.0, 0.5),
-             "sine_torsion": (1.0, 0.5), "reynolds": (1.0, 1.0)}
+             "sine_torsion": (1.0, 0.5), "check_drawn": (1.5, 0.5), "reynolds": (1.0, 1.0)}
     blocks = {}
     for source in (statics(), anchors("sine_pitch_slow"), plunge_anchors(), sines(), broadband(),
                    statics_off_centre(), statics_coarse(), slope_checks(), reynolds(), motion_checks(), both_checks(),
-                   small_sines(), torsion_sines()):
+                   small_sines(), torsion_sines(), drawn_checks()):
         for row in source:
             blocks.setdefault(row["block"], []).append(row)
     ranked = []
