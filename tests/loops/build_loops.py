@@ -172,7 +172,7 @@ def relative_angle(item):
 
 
 def error_bar(panel, cycle, percent):
-    """What meshes and steps make the record differ by, at the left edge of a panel."""
+    """What meshes and steps make a record differ by, at the left edge of a panel."""
     low, high = min(cycle), max(cycle)
     middle, half = 0.5 * (low + high), 0.01 * percent * (high - low)
     x = panel.x_axis.low + 0.03 * (panel.x_axis.high - panel.x_axis.low)
@@ -212,8 +212,9 @@ def motion_text(item):
 def checks():
     """The same motion on other meshes and with other steps: (name, what changed, pitch, plunge, the two average
     cycles)."""
-    base = {row["name"]: row for row in sine_rows() + index_rows("check_sine")}
-    for row in index_rows("check_sine"):
+    again = index_rows("check_sine") + index_rows("check_drawn")
+    base = {row["name"]: row for row in sine_rows() + again}
+    for row in again:
         name, change = row["name"].rsplit("_", 1)
         if name in base:
             pitch, plunge = terms(row)
@@ -282,8 +283,10 @@ def table(items, uncertain):
 
 def uncertainty_lines(parts):
     yield ("Mesh and step change the work of the records computed again by at most %.1f %% of its size up to a peak angle of "
-           "%.0f deg, by %.0f %% beyond, where the mesh loses the vortices that leave the plate: there no sign is known that is not "
-           "the work of the plunge." % (100.0 * parts[False], uncertainty.DEEP_DEG, 100.0 * parts[True]))
+           "%.0f deg; by up to %.0f %% in small motions that stay above %.1f deg, where the bubble behind the edge never closes; by %.0f %% "
+           "beyond %.0f deg, where the mesh loses the vortices that leave the plate: there no sign is known that is not the work of the plunge."
+           % (100.0 * parts[uncertainty.ATTACHING], uncertainty.DEEP_DEG, 100.0 * parts[uncertainty.OPEN], uncertainty.OPEN_DEG,
+              100.0 * parts[uncertainty.DEEP], uncertainty.DEEP_DEG))
 
 
 def summary(items, uncertain):

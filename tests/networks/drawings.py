@@ -4,7 +4,9 @@ import statistics
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+TESTS = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS / "support"), str(TESTS / "loops")]
+import build_loops  # noqa: E402
 import svg  # noqa: E402
 from study import MEMORY, NETWORKS, of, quantile  # noqa: E402
 
@@ -113,13 +115,21 @@ def names_of(networks):
             + [(DRAWN[n][1], DRAWN[n][0]) for n in networks])
 
 
-def loop_panel(place, cycles, networks, coefficient, title, label):
+NOTE = "bar at the left: what other meshes and steps differ by (±, rms, the largest found)"
+
+
+def bar_note(left, top):
+    return '<text x="%d" y="%d">%s</text>' % (left, top, NOTE)
+
+
+def loop_panel(place, cycles, networks, coefficient, title, label, percent):
     angles = next(iter(cycles.values()))["alpha_deg"]
     curves = list(curves_of(cycles, networks, coefficient))
     panel = svg.Panel(*place, svg.Axis.of(angles, label=label),
                       svg.Axis.of([v for values, _, _ in curves for v in values]), title)
     for values, colour, width in curves:
         panel.curve(angles, values, colour, width, closed=True)
+    build_loops.error_bar(panel, curves[0][0], percent[coefficient])
     return panel
 
 
@@ -137,24 +147,25 @@ def power_panel(place, cycles, networks):
 
 def case(study):
     cycles, networks = cycles_of(study, CASE), (("lm", 2), ("lm", 50))
-    label = "angle of attack [deg]"
-    parts = [loop_panel((60, 46, 240, 260), cycles, networks, "cl", "c_l", label),
-             loop_panel((380, 46, 240, 260), cycles, networks, "cm", "c_m", label),
+    label, percent = "angle of attack [deg]", build_loops.loop_uncertainty()
+    parts = [loop_panel((60, 46, 240, 260), cycles, networks, "cl", "c_l", label, percent),
+             loop_panel((380, 46, 240, 260), cycles, networks, "cm", "c_m", label, percent),
              power_panel((700, 46, 240, 260), cycles, networks)]
-    return svg.document(960, 390, "Pitch of 2.5 deg, amplitude 5 deg at f c/V = 0.125: 2 and 50 neurons",
-                        parts + svg.legend(names_of(networks), 60, 372, 200))
+    return svg.document(960, 412, "Pitch of 2.5 deg, amplitude 5 deg at f c/V = 0.125: 2 and 50 neurons",
+                        parts + svg.legend(names_of(networks), 60, 372, 200) + [bar_note(60, 396)])
 
 
 def loops(study):
     networks, parts = (("lm", 50), ("lstm", 7)), []
+    percent = build_loops.loop_uncertainty()
     shown = [(p, n) for p, n in examples(study.tables["cycle"]) if n != CASE]
     for i, (part, name) in enumerate(shown):
         cycles = cycles_of(study, name)
         for top, coefficient, label in ((46, "cl", ""), (300, "cm", "angle of attack [deg]")):
             parts.append(loop_panel((50 + 240 * i, top, 175, 190), cycles, networks, coefficient,
-                                    "%s, %s" % (coefficient[0] + "_" + coefficient[1], text_of(part)), label))
-    return svg.document(960, 580, "Loops of records trained and held out", parts +
-                        svg.legend(names_of(networks), 60, 562, 200))
+                                    "%s, %s" % (coefficient[0] + "_" + coefficient[1], text_of(part)), label, percent))
+    return svg.document(960, 602, "Loops of records trained and held out", parts +
+                        svg.legend(names_of(networks), 60, 562, 200) + [bar_note(60, 586)])
 
 
 def all_of(study):

@@ -182,6 +182,39 @@ def torsion_sines():
     return alternate(groups)
 
 
+def knee_sines():
+    """Small motions about angles at which the bubble opens, at the frequencies at which sections on springs and the
+    second bending of a beam begin to flutter: there the damping hangs on records like these."""
+    groups = []
+    for kind, count, start in (("pitch", 8, 701), ("plunge", 4, 721), ("both", 4, 741)):
+        groups.append([])
+        for i in range(start, start + count):
+            f = round(log_between(0.1, 0.35, halton(i, 2)), 3)
+            mean = round(2.0 * between(3.5, 7.0, halton(i, 3))) / 2.0
+            swing = between(0.5, 1.5, halton(i, 5))
+            a = round(swing, 1) if kind != "plunge" else 0.0
+            w = float("%.2g" % (math.radians(swing) / (2.0 * math.pi * f))) if kind != "pitch" else 0.0
+            phase = 45.0 * math.floor(8.0 * halton(i, 7)) if kind == "both" else 0.0
+            groups[-1].append(sine(name_of(kind, mean, a, w, f), "sine_knee", mean, f, a, w, phase))
+    return alternate(groups)
+
+
+def shedding_sines():
+    """Small motions about angles at which the flow sheds vortices, at their frequency and beyond, where the second and
+    third bending of a beam are: mostly plunge, which other records hardly have there."""
+    groups = []
+    for kind, count, start in (("plunge", 8, 801), ("both", 3, 821)):
+        groups.append([])
+        for i in range(start, start + count):
+            f = round(log_between(0.5, 1.6, halton(i, 2)), 2)
+            mean = round(2.0 * between(3.5, 8.0, halton(i, 3))) / 2.0
+            swing = between(0.5, 1.2, halton(i, 5))
+            w = float("%.2g" % (math.radians(swing) / (2.0 * math.pi * f)))
+            a, phase = (round(0.5 * swing, 1), 45.0 * math.floor(8.0 * halton(i, 7))) if kind == "both" else (0.0, 0.0)
+            groups[-1].append(sine(name_of(kind, mean, a, w, f), "sine_shedding", mean, f, a, w, phase))
+    return alternate(groups)
+
+
 def anchors(block, suffix="", points=None, **settings):
     """Cases of the literature and of earlier studies, repeated under other settings."""
     for mean, amplitude, frequency in points or ((2.5, 5, 0.125), (8, 6, 0.06), (5, 7, 0.25),
@@ -278,9 +311,9 @@ def motion_checks():
 
 
 def drawn_checks():
-    """Every seventh of the small sines and of those of torsion, in the order they are drawn in, on the coarse
-    mesh with half the step: the anchors above are large motions."""
-    for row in (small_sines() + torsion_sines())[3::7]:
+    """Every seventh of the sines at the knee, and of the small ones with those of torsion, in the order they are
+    drawn in, on the coarse mesh with half the step: the anchors above are large motions."""
+    for row in knee_sines()[3::7] + (small_sines() + torsion_sines())[3::7]:
         yield dict(row, name=row["name"] + "_coarse", block="check_drawn", mesh="coarse", step=0.5 * row["step"])
 
 
@@ -302,14 +335,14 @@ def both_checks():
 def document_rows():
     """All rows in order. Within a block the i-th of n rows has the rank x = (i + 1/2) / n, turned into
     a + b x: forward where others wait for it; the angles at mid-channel come before everything, the
-    small sines and those of torsion after all other motions, the other Reynolds numbers after everything."""
+    small sines, those of torsion and those at the knee after all other motions, the other Reynolds numbers after everything."""
     place = {"static": (0.0, 0.0), "static_coarse": (0.0, 0.04), "static_plunge": (0.0, 0.05),
              "check_static": (0.0, 0.15), "check_sine_both": (0.0, 0.1), "sine_small": (1.0, 0.5),
-             "sine_torsion": (1.0, 0.5), "check_drawn": (1.5, 0.5), "reynolds": (1.0, 1.0)}
+             "sine_torsion": (1.0, 0.5), "sine_knee": (1.5, 0.0), "sine_shedding": (1.5, 0.0), "check_drawn": (1.5, 0.5), "reynolds": (1.0, 1.0)}
     blocks = {}
     for source in (statics(), anchors("sine_pitch_slow"), plunge_anchors(), sines(), broadband(),
                    statics_off_centre(), statics_coarse(), slope_checks(), reynolds(), motion_checks(), both_checks(),
-                   small_sines(), torsion_sines(), drawn_checks()):
+                   small_sines(), torsion_sines(), knee_sines(), shedding_sines(), drawn_checks()):
         for row in source:
             blocks.setdefault(row["block"], []).append(row)
     ranked = []

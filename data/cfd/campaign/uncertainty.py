@@ -8,6 +8,9 @@ import math
 
 # Beyond, the production mesh loses the vortices that leave the plate (../README.md): it says little of work there.
 DEEP_DEG = 14.1
+# A motion that never comes below it swings over a bubble that stays open, and sheds on its own.
+OPEN_DEG = 3.5
+ATTACHING, OPEN, DEEP = KINDS = ("attaching", "open", "deep")
 CHANGES = ("_step0.01", "_step0.005", "_coarse")
 
 
@@ -27,28 +30,31 @@ def checks(rows):
                 yield base, row
 
 
-def peak_deg(row):
-    """Largest angle of the chord in the relative stream, the incidence of the plunge with it."""
+def reach_deg(row):
+    """Least and largest angle of the chord in the relative stream, the incidence of the plunge with it."""
     pitch, phase = float(row["pitch_deg"]), math.radians(float(row["phase_deg"] or 0.0))
     incidence = math.degrees(2.0 * math.pi * float(row["frequency"]) * float(row["plunge_c"]))
-    return abs(float(row["mean_deg"])) + math.hypot(pitch + incidence * math.sin(phase), incidence * math.cos(phase))
+    mean, swing = abs(float(row["mean_deg"])), math.hypot(pitch + incidence * math.sin(phase), incidence * math.cos(phase))
+    return mean - swing, mean + swing
 
 
-def is_deep(row):
-    return peak_deg(row) > DEEP_DEG
+def kind(row):
+    """What the work of a row is known by."""
+    least, largest = reach_deg(row)
+    return DEEP if largest > DEEP_DEG else OPEN if least > OPEN_DEG else ATTACHING
 
 
 def shares(rows):
-    """Largest difference of the work in the checks, in shares of its size: {deep: share}."""
-    found = {False: 0.0, True: 0.0}
+    """Largest difference of the work in the checks, in shares of its size: {kind: share}."""
+    found = dict.fromkeys(KINDS, 0.0)
     for base, other in checks(rows):
         for key, size in zip(("work_pitch", "work_plunge"), sizes(base)):
             if size > 0.0:
                 part = abs(float(other[key]) - float(base[key])) / size
-                found[is_deep(base)] = max(found[is_deep(base)], part)
+                found[kind(base)] = max(found[kind(base)], part)
     return found
 
 
 def of_work(row, parts):
     """Uncertainty of the work of a row: mesh and step, a part of the size, and the scatter of its cycles."""
-    return math.hypot(*(parts[is_deep(row)] * size for size in sizes(row)), float(row["work_sd"]))
+    return math.hypot(*(parts[kind(row)] * size for size in sizes(row)), float(row["work_sd"]))
