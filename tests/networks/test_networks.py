@@ -36,8 +36,8 @@ class Networks(unittest.TestCase):
         self.assertEqual(self.study.median(MEMORY, "weights"), 352)
 
     def test_energy_error_falls_to_fifty_neurons(self):
-        """By 44 % in the records trained, by 30 % in those held out."""
-        for part, fall in (("trained", 0.44), ("held", 0.30)):
+        """By 44 % in the records trained, by 36 % in those held out."""
+        for part, fall in (("trained", 0.44), ("held", 0.36)):
             shares = [self.study.energy_share(("lm", n), part) for n in SIZES]
             self.assertAlmostEqual(shares[SIZES.index(50)] / shares[0], 1.0 - fall, delta=0.03)
 
