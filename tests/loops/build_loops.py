@@ -179,6 +179,12 @@ def error_bar(panel, cycle, percent):
     panel.curve((x, x), (middle - half, middle + half), svg.BLACK, 5)
 
 
+def bar_note(left, top):
+    """Says what error_bar draws."""
+    text = "bar at the left: what other meshes and steps differ by (±, rms, the largest found)"
+    return '<text x="%d" y="%d">%s</text>' % (left, top, text)
+
+
 def drawing(item, percent):
     angles = relative_angle(item)
     drawn = [(svg.BLACK, item["cfd"], 2.5)]
@@ -193,9 +199,8 @@ def drawing(item, percent):
         error_bar(panel, item["cfd"][key], percent[key])
         parts.append(panel)
     names = [(svg.BLACK, "flow computation")] + [(c, n) for _, _, n, c in MODELS if c]
-    note = '<text x="60" y="434">bar at the left: what other meshes and steps differ by (±, rms, the largest found)</text>'
     return svg.document(960, 446, "Lift and moment of %s: flow computation and models" % item["row"]["name"],
-                        parts + svg.legend(names, 60, 412, 190) + [note])
+                        parts + svg.legend(names, 60, 412, 190) + [bar_note(60, 434)])
 
 
 def motion_text(item):

@@ -115,13 +115,6 @@ def names_of(networks):
             + [(DRAWN[n][1], DRAWN[n][0]) for n in networks])
 
 
-NOTE = "bar at the left: what other meshes and steps differ by (±, rms, the largest found)"
-
-
-def bar_note(left, top):
-    return '<text x="%d" y="%d">%s</text>' % (left, top, NOTE)
-
-
 def loop_panel(place, cycles, networks, coefficient, title, label, percent):
     angles = next(iter(cycles.values()))["alpha_deg"]
     curves = list(curves_of(cycles, networks, coefficient))
@@ -152,7 +145,7 @@ def case(study):
              loop_panel((380, 46, 240, 260), cycles, networks, "cm", "c_m", label, percent),
              power_panel((700, 46, 240, 260), cycles, networks)]
     return svg.document(960, 412, "Pitch of 2.5 deg, amplitude 5 deg at f c/V = 0.125: 2 and 50 neurons",
-                        parts + svg.legend(names_of(networks), 60, 372, 200) + [bar_note(60, 396)])
+                        parts + svg.legend(names_of(networks), 60, 372, 200) + [build_loops.bar_note(60, 396)])
 
 
 def loops(study):
@@ -165,7 +158,7 @@ def loops(study):
             parts.append(loop_panel((50 + 240 * i, top, 175, 190), cycles, networks, coefficient,
                                     "%s, %s" % (coefficient[0] + "_" + coefficient[1], text_of(part)), label, percent))
     return svg.document(960, 602, "Loops of records trained and held out", parts +
-                        svg.legend(names_of(networks), 60, 562, 200) + [bar_note(60, 586)])
+                        svg.legend(names_of(networks), 60, 562, 200) + [build_loops.bar_note(60, 586)])
 
 
 def all_of(study):

@@ -182,37 +182,34 @@ def torsion_sines():
     return alternate(groups)
 
 
-def knee_sines():
-    """Small motions about angles at which the bubble opens, at the frequencies at which sections on springs and the
-    second bending of a beam begin to flutter: there the damping hangs on records like these."""
+def swings(block, kinds, frequencies, digits, means, incidences, pitch_share):
+    """Small motions about an angle: `kinds` are (kind, count, start of the sequence), pitch a share of the swing
+    of incidence, frequencies to so many digits."""
     groups = []
-    for kind, count, start in (("pitch", 8, 701), ("plunge", 4, 721), ("both", 4, 741)):
+    for kind, count, start in kinds:
         groups.append([])
         for i in range(start, start + count):
-            f = round(log_between(0.1, 0.35, halton(i, 2)), 3)
-            mean = round(2.0 * between(3.5, 7.0, halton(i, 3))) / 2.0
-            swing = between(0.5, 1.5, halton(i, 5))
-            a = round(swing, 1) if kind != "plunge" else 0.0
+            f = round(log_between(*frequencies, halton(i, 2)), digits)
+            mean = round(2.0 * between(*means, halton(i, 3))) / 2.0
+            swing = between(*incidences, halton(i, 5))
+            a = round(pitch_share * swing, 1) if kind != "plunge" else 0.0
             w = float("%.2g" % (math.radians(swing) / (2.0 * math.pi * f))) if kind != "pitch" else 0.0
             phase = 45.0 * math.floor(8.0 * halton(i, 7)) if kind == "both" else 0.0
-            groups[-1].append(sine(name_of(kind, mean, a, w, f), "sine_knee", mean, f, a, w, phase))
+            groups[-1].append(sine(name_of(kind, mean, a, w, f), block, mean, f, a, w, phase))
     return alternate(groups)
+
+
+def knee_sines():
+    """About angles at which the bubble opens, at the frequencies at which sections on springs and the second bending
+    of a beam begin to flutter: there the damping hangs on records like these."""
+    return swings("sine_knee", (("pitch", 8, 701), ("plunge", 4, 721), ("both", 4, 741)), (0.1, 0.35), 3,
+                  (3.5, 7.0), (0.5, 1.5), 1.0)
 
 
 def shedding_sines():
-    """Small motions about angles at which the flow sheds vortices, at their frequency and beyond, where the second and
-    third bending of a beam are: mostly plunge, which other records hardly have there."""
-    groups = []
-    for kind, count, start in (("plunge", 8, 801), ("both", 3, 821)):
-        groups.append([])
-        for i in range(start, start + count):
-            f = round(log_between(0.5, 1.6, halton(i, 2)), 2)
-            mean = round(2.0 * between(3.5, 8.0, halton(i, 3))) / 2.0
-            swing = between(0.5, 1.2, halton(i, 5))
-            w = float("%.2g" % (math.radians(swing) / (2.0 * math.pi * f)))
-            a, phase = (round(0.5 * swing, 1), 45.0 * math.floor(8.0 * halton(i, 7))) if kind == "both" else (0.0, 0.0)
-            groups[-1].append(sine(name_of(kind, mean, a, w, f), "sine_shedding", mean, f, a, w, phase))
-    return alternate(groups)
+    """About angles at which the flow sheds vortices, at their frequency and beyond, where the second and third bending
+    of a beam are: mostly plunge, which other records hardly have there."""
+    return swings("sine_shedding", (("plunge", 8, 801), ("both", 3, 821)), (0.5, 1.6), 2, (3.5, 8.0), (0.5, 1.2), 0.5)
 
 
 def anchors(block, suffix="", points=None, **settings):
@@ -335,10 +332,12 @@ def both_checks():
 def document_rows():
     """All rows in order. Within a block the i-th of n rows has the rank x = (i + 1/2) / n, turned into
     a + b x: forward where others wait for it; the angles at mid-channel come before everything, the
-    small sines, those of torsion and those at the knee after all other motions, the other Reynolds numbers after everything."""
+    small sines, those of torsion and those at the knee after all other motions, the other Reynolds numbers after
+    everything."""
     place = {"static": (0.0, 0.0), "static_coarse": (0.0, 0.04), "static_plunge": (0.0, 0.05),
              "check_static": (0.0, 0.15), "check_sine_both": (0.0, 0.1), "sine_small": (1.0, 0.5),
-             "sine_torsion": (1.0, 0.5), "sine_knee": (1.5, 0.0), "sine_shedding": (1.5, 0.0), "check_drawn": (1.5, 0.5), "reynolds": (1.0, 1.0)}
+             "sine_torsion": (1.0, 0.5), "sine_knee": (1.5, 0.0), "sine_shedding": (1.5, 0.0),
+             "check_drawn": (1.5, 0.5), "reynolds": (1.0, 1.0)}
     blocks = {}
     for source in (statics(), anchors("sine_pitch_slow"), plunge_anchors(), sines(), broadband(),
                    statics_off_centre(), statics_coarse(), slope_checks(), reynolds(), motion_checks(), both_checks(),
