@@ -229,11 +229,15 @@ def checks():
 
 
 def loop_uncertainty():
-    """Largest misfits between meshes and steps, in per cent of the range; of deep stall there is but one check, and no
-    drawing."""
-    sines = {row["name"] for row in sine_rows()}
-    found = [check for check in checks() if check[0] in sines]
-    return {c: max(misfit(other, reference, c) for *_, reference, other in found) for c in ("cl", "cm")}
+    """{name of a sine: largest misfits of c_l and c_m between meshes and steps, in per cent of the range, in motions of
+    its kind}; of deep stall there is but one check, and no drawing."""
+    kinds = {row["name"]: uncertainty.kind(row) for row in ask.rows(CFD / "harmonics.csv")}
+    worst = {kind: {"cl": 0.0, "cm": 0.0} for kind in uncertainty.KINDS}
+    for name, *_, reference, other in checks():
+        found = worst[kinds[name]]
+        for c in found:
+            found[c] = max(found[c], misfit(other, reference, c))
+    return {name: worst[kind] for name, kind in kinds.items()}
 
 
 def check_table():
@@ -368,7 +372,7 @@ def main():
     percent = loop_uncertainty()
     for item in items:
         if item["row"]["name"] in DRAWN:
-            (DRAWINGS / (item["row"]["name"] + ".svg")).write_text(drawing(item, percent), encoding="utf-8")
+            (DRAWINGS / (item["row"]["name"] + ".svg")).write_text(drawing(item, percent[item["row"]["name"]]), encoding="utf-8")
     PAGE.write_text("\n".join(page(items, broadband, own, *work_uncertainties())) + "\n", encoding="utf-8")
     return 0
 

@@ -140,7 +140,7 @@ def power_panel(place, cycles, networks):
 
 def case(study):
     cycles, networks = cycles_of(study, CASE), (("lm", 2), ("lm", 50))
-    label, percent = "angle of attack [deg]", build_loops.loop_uncertainty()
+    label, percent = "angle of attack [deg]", build_loops.loop_uncertainty()[CASE]
     parts = [loop_panel((60, 46, 240, 260), cycles, networks, "cl", "c_l", label, percent),
              loop_panel((380, 46, 240, 260), cycles, networks, "cm", "c_m", label, percent),
              power_panel((700, 46, 240, 260), cycles, networks)]
@@ -156,7 +156,7 @@ def loops(study):
         cycles = cycles_of(study, name)
         for top, coefficient, label in ((46, "cl", ""), (300, "cm", "angle of attack [deg]")):
             parts.append(loop_panel((50 + 240 * i, top, 175, 190), cycles, networks, coefficient,
-                                    "%s, %s" % (coefficient[0] + "_" + coefficient[1], text_of(part)), label, percent))
+                                    "%s, %s" % (coefficient[0] + "_" + coefficient[1], text_of(part)), label, percent[name]))
     return svg.document(960, 602, "Loops of records trained and held out", parts +
                         svg.legend(names_of(networks), 60, 562, 200) + [build_loops.bar_note(60, 586)])
 
