@@ -243,10 +243,36 @@ static bool has_no_lags(const void *base)
     return ((const struct network_entry *)base)->def.frame.n_lag == 0;
 }
 
+static bool has_no_oscillators(const void *base)
+{
+    return ((const struct network_entry *)base)->def.frame.n_oscillator == 0;
+}
+
 static bool has_no_polar(const void *base)
 {
     return ((const struct network_entry *)base)->def.polar_hash[0] == '\0';
 }
+
+/* So that a member that is missing is named once, not its zero as well. */
+void network_oscillator_start(const struct reader *r, void *element)
+{
+    (void)r;
+    *(struct network_oscillator *)element =
+        (struct network_oscillator){.frequency = 1.0, .damping = 0.5};
+}
+
+/* The core's check has the ranges. */
+const struct field network_oscillator_fields[] = {
+    {.key = "f_c_v",
+     .kind = FIELD_NUMBER,
+     .required = true,
+     .offset = offsetof(struct network_oscillator, frequency)},
+    {.key = "damping",
+     .kind = FIELD_NUMBER,
+     .required = true,
+     .offset = offsetof(struct network_oscillator, damping)},
+    {0},
+};
 
 /* Sizes before what has them. What older networks do not have is not printed either: their hash
  * stays what it was. */
@@ -292,6 +318,16 @@ const struct field network_fields[] = {
      .count = offsetof(struct network_entry, def.frame.n_lag),
      .max = NETWORK_LAGS,
      .omit = has_no_lags},
+    {.key = "oscillators",
+     .kind = FIELD_LIST,
+     .kinds = ENTRY_TABLE,
+     .offset = offsetof(struct network_entry, def.frame.oscillator),
+     .size = sizeof(struct network_oscillator),
+     .fields = network_oscillator_fields,
+     .count = offsetof(struct network_entry, def.frame.n_oscillator),
+     .max = NETWORK_OSCILLATORS,
+     .start = network_oscillator_start,
+     .omit = has_no_oscillators},
     NETWORK_NAMES("inputs", input, n_in, network_input_names, LIMIT_NET_INPUTS),
     NETWORK_NAMES("outputs", output, n_out, network_output_names, LIMIT_NET_OUTPUTS),
     {.key = "hidden",

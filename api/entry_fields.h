@@ -12,9 +12,11 @@ enum entry_group {
     ENTRY_TABLE = 4  /* what a result depends on: the content hash covers these */
 };
 
-extern const struct field material_fields[]; /* of struct material */
-extern const struct field polar_fields[];    /* of struct polar_entry */
-extern const struct field network_fields[];  /* of struct network_entry */
+extern const struct field material_fields[];           /* of struct material */
+extern const struct field polar_fields[];              /* of struct polar_entry */
+extern const struct field network_fields[];            /* of struct network_entry */
+void network_oscillator_start(const struct reader *r, void *element);
+extern const struct field network_oscillator_fields[]; /* of struct network_oscillator */
 
 /* By the enums of core; they end with NULL. */
 extern const char *const network_input_names[];

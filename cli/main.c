@@ -29,9 +29,12 @@ static const struct command commands[] = {
      "a section on springs, free to pitch and plunge, as CSV; the last line says how it ended"},
     {"train", train_main,
      "FOLDER --output FILE.json [--name NAME] [--description TEXT] [--polar NAME|FILE.json]\n"
-     "      [--base polar|attached|dynamic_stall] [--lags T,...] [--inputs NAME,...] [--hidden N]\n"
-     "      [--members N] [--folds N] [--samples N] [--anchors N] [--optimiser lm|adam]\n"
-     "      [--epochs N] [--decay X] [--balance X] [--tolerance X] [--symmetric] [--seed N]",
+     "      [--base polar|attached|dynamic_stall] [--lags T,...] [--oscillators F:D,...]\n"
+     "      [--inputs NAME,...] [--hidden N] [--members N] [--folds N] [--samples N] [--anchors "
+     "N]\n"
+     "      [--optimiser lm|adam] [--epochs N] [--decay X] [--balance X] [--tolerance X] "
+     "[--symmetric]\n"
+     "      [--seed N]",
      "train a network on the records of a folder like data/cfd; prints the learning curve and the\n"
      "      errors on each record, as CSV"},
     {"submit", remote_submit, "CASE.json... [--wait]", "hand cases to the daemon, print their ids"},

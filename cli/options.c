@@ -34,6 +34,7 @@ static const struct option long_options[] = {
     {"inputs", required_argument, NULL, 'I'},
     {"base", required_argument, NULL, 'B'},
     {"lags", required_argument, NULL, 'L'},
+    {"oscillators", required_argument, NULL, 'C'},
     {"members", required_argument, NULL, 'K'},
     {"folds", required_argument, NULL, 'Z'},
     {"samples", required_argument, NULL, 'Q'},
@@ -87,6 +88,7 @@ static const struct target targets[] = {
     TARGET('Z', NUMBER, folds),     TARGET('Q', NUMBER, samples),
     TARGET('U', NUMBER, anchors),   TARGET('G', NUMBER, balance),
     TARGET('T', NUMBER, tolerance), TARGET('R', FLAG, symmetric),
+    TARGET('C', TEXT, oscillators),
 };
 
 static bool parse_number(const char *text, bool seconds, double *out)

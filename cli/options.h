@@ -24,6 +24,7 @@ struct options {
     const char *inputs;      /* -I */
     const char *base;        /* -B */
     const char *lags;        /* -L */
+    const char *oscillators; /* -C */
     const char *optimiser;   /* -O */
     const char *value;       /* -V */
     /* Numbers, NaN when not given. */

@@ -52,7 +52,7 @@ static bool train(const struct options *o, struct training *t)
 int train_main(int argc, char **argv)
 {
     struct options o;
-    if (!options_parse(argc, argv, "WAXBLIPHKZQUGTROEYS", 1, 1, &o) || o.output == NULL) {
+    if (!options_parse(argc, argv, "WAXBLCIPHKZQUGTROEYS", 1, 1, &o) || o.output == NULL) {
         return command_usage("train");
     }
     struct training *t = calloc(1, sizeof *t);

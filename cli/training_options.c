@@ -57,6 +57,27 @@ static bool set_lags(const char *list, struct network_frame *frame)
     return true;
 }
 
+/* Frequencies and damping ratios separated by colons, one pair from the next by commas. */
+static bool set_oscillators(const char *list, struct network_frame *frame)
+{
+    const char *p = list != NULL ? list : "";
+    while (*p != '\0') {
+        struct network_oscillator o = {0};
+        char *middle = NULL, *end = NULL;
+        o.frequency = strtod(p, &middle);
+        o.damping = middle != p && *middle == ':' ? strtod(middle + 1, &end) : 0.0;
+        if (end == NULL || end == middle + 1 || (*end != ',' && *end != '\0') ||
+            frame->n_oscillator == NETWORK_OSCILLATORS) {
+            (void)fprintf(stderr, "aerom: --oscillators: at most %d of f c/V:damping ratio: '%s'\n",
+                          NETWORK_OSCILLATORS, list);
+            return false;
+        }
+        frame->oscillator[frame->n_oscillator++] = o;
+        p = end + (*end == ',');
+    }
+    return true;
+}
+
 static bool set_base(const char *name, struct network_frame *frame)
 {
     int k = 0;
@@ -148,7 +169,7 @@ bool training_set(const struct options *o, struct training *t)
     t->def.train.tolerance = options_given(o->tolerance, t->def.train.tolerance);
     if (!set_name(o->name != NULL ? o->name : "trained", net) || !set_counts(o, t) ||
         !set_base(o->base, &net->frame) || !set_lags(o->lags, &net->frame) ||
-        !set_inputs(o->inputs, net)) {
+        !set_oscillators(o->oscillators, &net->frame) || !set_inputs(o->inputs, net)) {
         return false;
     }
     return check(t);

@@ -22,7 +22,7 @@ enum {
     LIMIT_SECTION_ELEMENTS = 512, /* elements of all walls of a section */
     LIMIT_POLAR_ANGLES = 2048,
     LIMIT_POLAR_PLUNGES = 64,
-    LIMIT_NET_INPUTS = 16,
+    LIMIT_NET_INPUTS = 24,
     LIMIT_NET_HIDDEN = 512,
     LIMIT_NET_OUTPUTS = 3,
     LIMIT_STEPS = 10000000,         /* time steps of one run */

@@ -7,7 +7,7 @@ enum status moving_section_init(const struct network_frame *frame, const struct 
                                 double dt, struct moving_section *out)
 {
     *out = (struct moving_section){.polar = polar};
-    enum status st = network_lags_init(1, &chord, speed, dt, frame, &out->lags);
+    enum status st = network_memory_init(1, &chord, speed, dt, frame, &out->memory);
     if (st == ST_OK && frame->base != NETWORK_ON_POLAR) {
         st = attached_init(1, &chord, speed, dt, &out->attached);
     }
@@ -21,7 +21,7 @@ void moving_section_done(struct moving_section *s)
 {
     dynamic_stall_done(&s->stall);
     attached_done(&s->attached);
-    network_lags_done(&s->lags);
+    network_memory_done(&s->memory);
 }
 
 /* The angle that acts: of the chord in the relative stream, or what the wake lets act of the one at
@@ -80,9 +80,9 @@ struct moving_value moving_section_step(struct moving_section *s, const struct m
     apply_stall(s, alpha, m, first, &v);
     add_apparent_mass(s, m, &v);
     if (first) {
-        network_lags_steady(&s->lags, &geometric, &m->theta_rate, s->input);
+        network_memory_steady(&s->memory, &geometric, &m->theta_rate, s->input);
     } else {
-        network_lags_step(&s->lags, &geometric, &m->theta_rate, s->input);
+        network_memory_step(&s->memory, &geometric, &m->theta_rate, s->input);
     }
     return v;
 }

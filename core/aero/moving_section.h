@@ -11,7 +11,7 @@
 
 #include "core/aero/attached.h"
 #include "core/aero/dynamic_stall.h"
-#include "core/aero/network_lags.h"
+#include "core/aero/network_memory.h"
 
 struct moving_state {
     double theta, theta_rate, theta_acceleration; /* of the chord [rad], nose-up */
@@ -22,7 +22,7 @@ struct moving_section {
     const struct polar *polar;
     struct attached attached;   /* n = 0 on the polar */
     struct dynamic_stall stall; /* n = 0 without */
-    struct network_lags lags;
+    struct network_memory memory;
     double wake[ATTACHED_LAGS], stall_state[STALL_ARRAYS];
     double alpha_34;            /* of the step before */
     double input[NET_IN_COUNT]; /* of these, from NET_IN_ALPHA on */

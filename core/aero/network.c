@@ -12,6 +12,9 @@
 
 /* Time constants of lags [c/V]. */
 static const double lag_least = 0.01, lag_most = 1000.0;
+/* Frequencies f c/V and damping ratios of oscillators. */
+static const double frequency_least = 0.001, frequency_most = 100.0;
+static const double damping_least = 0.01, damping_most = 0.99;
 
 /* Neurons evaluated side by side; the last group is filled up with neurons without weights. */
 enum { NETWORK_GROUP = 4 };
@@ -106,42 +109,70 @@ static void check_numbers(int n, const double *x, bool positive, const char *poi
     }
 }
 
-/* Number of the lag an input is behind, from 0; -1 for none. */
-static int lag_of(enum network_input input)
+/* Appends what is wrong with a number of the frame, at pointer/where. */
+static void check_frame_number(double value, double least, double most, const char *pointer,
+                               const char *where, int k, const char *member, const char *expected,
+                               struct failure_list *out)
 {
-    const int in = (int)input;
-    if (in >= (int)NET_IN_ALPHA_LAG_1 && in <= (int)NET_IN_ALPHA_LAG_4) {
-        return in - (int)NET_IN_ALPHA_LAG_1;
+    char at[160];
+    (void)snprintf(at, sizeof at, "%s/%s/%d%s", pointer, where, k, member);
+    if (!(value >= least && value <= most)) {
+        failure_set(failure_add(out), ST_INVALID, at, "out_of_range", expected, NULL,
+                    "entry %d of %s is not admissible", k, where);
     }
-    return in >= (int)NET_IN_PITCH_LAG_1 && in <= (int)NET_IN_PITCH_LAG_4
-               ? in - (int)NET_IN_PITCH_LAG_1
-               : -1;
 }
 
-/* Time constants, and inputs that the network has no lag or no base for. */
+/* The rows of the inputs that need a lag, an oscillator or a base; `width` rows belong to one. */
+static const struct needs {
+    int first, count, width;
+    const char *field;
+} needs[] = {
+    {NET_IN_ALPHA_LAG_1, NETWORK_LAGS, 1, "lags_c_v"},
+    {NET_IN_PITCH_LAG_1, NETWORK_LAGS, 1, "lags_c_v"},
+    {NET_IN_ALPHA_OSCILLATOR_1, 2 * NETWORK_OSCILLATORS, 2, "oscillators"},
+    {NET_IN_PITCH_OSCILLATOR_1, 2 * NETWORK_OSCILLATORS, 2, "oscillators"},
+};
+
+static void check_frame_input(const struct network_def *def, int i, const char *pointer,
+                              struct failure_list *out)
+{
+    char where[160], expected[64];
+    const int in = (int)def->input[i];
+    const char *name = input_name[in];
+    (void)snprintf(where, sizeof where, "%s/inputs/%d", pointer, i);
+    for (size_t k = 0; k < sizeof needs / sizeof needs[0]; k++) {
+        const struct needs *need = &needs[k];
+        const int there = need->width == 1 ? def->frame.n_lag : 2 * def->frame.n_oscillator;
+        const int at = in - need->first;
+        if (at >= there && at < need->count) {
+            (void)snprintf(expected, sizeof expected, "an input behind one of %s", need->field);
+            failure_set(failure_add(out), ST_INVALID, where, "contradiction", expected, name,
+                        "%s needs more entries than the %d of %s", name, there / need->width,
+                        need->field);
+        }
+    }
+    if (in >= (int)NET_IN_STALL_BUBBLE && def->frame.base != NETWORK_ON_STALL) {
+        failure_set(failure_add(out), ST_INVALID, where, "contradiction",
+                    "an input that the base has", name, "%s is a state of dynamic_stall", name);
+    }
+}
+
 void network_def_check_frame(const struct network_def *def, const char *pointer,
                              struct failure_list *out)
 {
-    char where[160];
-    for (int k = 0; k < def->frame.n_lag; k++) {
-        if (!(def->frame.lag[k] >= lag_least && def->frame.lag[k] <= lag_most)) {
-            (void)snprintf(where, sizeof where, "%s/lags_c_v/%d", pointer, k);
-            failure_set(failure_add(out), ST_INVALID, where, "out_of_range", "c/V, 0.01..1000",
-                        NULL, "time constant %d of the lags is not admissible", k);
-        }
+    const struct network_frame *f = &def->frame;
+    for (int k = 0; k < f->n_lag; k++) {
+        check_frame_number(f->lag[k], lag_least, lag_most, pointer, "lags_c_v", k, "",
+                           "c/V, 0.01..1000", out);
+    }
+    for (int k = 0; k < f->n_oscillator; k++) {
+        check_frame_number(f->oscillator[k].frequency, frequency_least, frequency_most, pointer,
+                           "oscillators", k, "/f_c_v", "f c/V, 0.001..100", out);
+        check_frame_number(f->oscillator[k].damping, damping_least, damping_most, pointer,
+                           "oscillators", k, "/damping", "a damping ratio, 0.01..0.99", out);
     }
     for (int i = 0; i < def->n_in; i++) {
-        const char *name = input_name[def->input[i]];
-        (void)snprintf(where, sizeof where, "%s/inputs/%d", pointer, i);
-        if (lag_of(def->input[i]) >= def->frame.n_lag) {
-            failure_set(failure_add(out), ST_INVALID, where, "contradiction",
-                        "an input behind a lag of lags_c_v", name,
-                        "%s needs more time constants than the %d of lags_c_v", name,
-                        def->frame.n_lag);
-        } else if (def->input[i] >= NET_IN_STALL_BUBBLE && def->frame.base != NETWORK_ON_STALL) {
-            failure_set(failure_add(out), ST_INVALID, where, "contradiction",
-                        "an input that the base has", name, "%s is a state of dynamic_stall", name);
-        }
+        check_frame_input(def, i, pointer, out);
     }
 }
 

@@ -31,6 +31,14 @@
     X(NET_IN_PITCH_LAG_2, "pitch_rate_lag_2", "pitch_rate behind the second lag")                  \
     X(NET_IN_PITCH_LAG_3, "pitch_rate_lag_3", "pitch_rate behind the third lag")                   \
     X(NET_IN_PITCH_LAG_4, "pitch_rate_lag_4", "pitch_rate behind the fourth lag")                  \
+    X(NET_IN_ALPHA_OSCILLATOR_1, "alpha_oscillator_1", "alpha behind the first oscillator [rad]")  \
+    X(NET_IN_ALPHA_SWING_1, "alpha_oscillator_rate_1", "its rate by the frequency, x'/w [rad]")    \
+    X(NET_IN_ALPHA_OSCILLATOR_2, "alpha_oscillator_2", "alpha behind the second one [rad]")        \
+    X(NET_IN_ALPHA_SWING_2, "alpha_oscillator_rate_2", "its rate by the frequency [rad]")          \
+    X(NET_IN_PITCH_OSCILLATOR_1, "pitch_rate_oscillator_1", "pitch_rate behind the first one")     \
+    X(NET_IN_PITCH_SWING_1, "pitch_rate_oscillator_rate_1", "its rate by the frequency")           \
+    X(NET_IN_PITCH_OSCILLATOR_2, "pitch_rate_oscillator_2", "pitch_rate behind the second one")    \
+    X(NET_IN_PITCH_SWING_2, "pitch_rate_oscillator_rate_2", "its rate by the frequency")           \
     X(NET_IN_STALL_BUBBLE, "stall_bubble", "state b of dynamic stall")                             \
     X(NET_IN_STALL_MOMENT, "stall_moment", "state m of dynamic stall")                             \
     X(NET_IN_STALL_LOST, "stall_lost", "state z of dynamic stall")
@@ -39,7 +47,7 @@
 enum network_input { NETWORK_INPUT_LIST(NETWORK_ENUM) NET_IN_COUNT };
 #undef NETWORK_ENUM
 
-enum { NETWORK_LAGS = 4 }; /* a network has at most */
+enum { NETWORK_LAGS = 4, NETWORK_OSCILLATORS = 2 }; /* a network has at most */
 
 /* What the increment is counted from: the steady polar, attached flow with its wake and apparent
  * mass, or these and the lags of stall. The last two carry what follows the accelerations as a mass
@@ -53,11 +61,18 @@ enum { NETWORK_LAGS = 4 }; /* a network has at most */
 enum network_base { NETWORK_BASE_LIST(NETWORK_BASE_ENUM) NETWORK_BASES };
 #undef NETWORK_BASE_ENUM
 
+struct network_oscillator {
+    double frequency; /* f c/V, > 0 */
+    double damping;   /* damping ratio, in (0, 1) */
+};
+
 /* What a network stands on and how long it remembers. */
 struct network_frame {
     enum network_base base;
     int n_lag;                /* 0..NETWORK_LAGS */
     double lag[NETWORK_LAGS]; /* time constants of the lags [c/V], > 0 (n_lag) */
+    int n_oscillator;         /* 0..NETWORK_OSCILLATORS */
+    struct network_oscillator oscillator[NETWORK_OSCILLATORS]; /* (n_oscillator) */
 };
 
 enum network_output { NET_OUT_CL, NET_OUT_CM, NET_OUT_CD, NET_OUT_COUNT }; /* "cl" "cm" "cd" */

@@ -288,9 +288,9 @@ static enum status build_dynamic(struct model *m)
     enum status st = ST_OK;
     if (a->dynamic == DYNAMIC_NETWORK) {
         st = network_create(a->network, &m->network);
-        st = st == ST_OK
-                 ? network_lags_init(m->n_station, m->chord, speed, dt, &frame, &m->network_lags)
-                 : st;
+        st = st == ST_OK ? network_memory_init(m->n_station, m->chord, speed, dt, &frame,
+                                               &m->network_memory)
+                         : st;
     }
     if (st == ST_OK && frame.base == NETWORK_ON_STALL) {
         st = dynamic_stall_init(m->n_station, m->chord, speed, dt, m->polar, &a->polar->stall,
@@ -394,7 +394,7 @@ void model_done(struct model *m)
     }
     polar_destroy(m->polar);
     network_destroy(m->network);
-    network_lags_done(&m->network_lags);
+    network_memory_done(&m->network_memory);
     lifting_line_done(&m->lifting_line);
     attached_done(&m->attached);
     dynamic_stall_done(&m->stall);

@@ -6,7 +6,7 @@
 
 #include "core/aero/attached.h"
 #include "core/aero/dynamic_stall.h"
-#include "core/aero/network_lags.h"
+#include "core/aero/network_memory.h"
 #include "core/case_def.h"
 #include "core/structure/centres.h"
 #include "core/structure/modes.h"
@@ -36,11 +36,11 @@ struct model {
 
     /* The rest only where case_def_flows. */
     struct polar *polar;
-    struct network *network;          /* NULL without one */
-    struct network_lags network_lags; /* n = 0 without a network */
-    struct lifting_line lifting_line; /* n = 0 without one */
-    struct attached attached;         /* n = 0 without a wake that lags */
-    struct dynamic_stall stall;       /* n = 0 without; it has a wake that lags too */
+    struct network *network;              /* NULL without one */
+    struct network_memory network_memory; /* n = 0 without a network */
+    struct lifting_line lifting_line;     /* n = 0 without one */
+    struct attached attached;             /* n = 0 without a wake that lags */
+    struct dynamic_stall stall;           /* n = 0 without; it has a wake that lags too */
     int n_mode;
     int n_station;           /* middles of equal parts of the span */
     double station_length;   /* [m] */

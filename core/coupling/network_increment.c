@@ -102,9 +102,9 @@ void network_increment(const struct model *m, struct workspace *w, bool steady)
     advance_mean(w, alpha, steady);
     rates(m, w);
     if (steady) {
-        network_lags_steady(&m->network_lags, alpha, w->pitch_rate, w->net_in);
+        network_memory_steady(&m->network_memory, alpha, w->pitch_rate, w->net_in);
     } else {
-        network_lags_step(&m->network_lags, alpha, w->pitch_rate, w->net_in);
+        network_memory_step(&m->network_memory, alpha, w->pitch_rate, w->net_in);
     }
     if (m->stall.n > 0) {
         network_stall_inputs(n, w->stall, w->net_in);

@@ -68,7 +68,8 @@ MUST_CHECK enum status flow_record_march(const struct flow_record *r,
 /* Coefficients of the polar at the instantaneous angle and plunge: y (NET_OUT_COUNT x n). */
 void flow_record_steady(const struct flow_record *r, const struct polar *polar, double *y);
 /* Increments: y (NET_OUT_COUNT x n), the coefficients of a model, becomes what the record has
- * beyond them. */
+ * beyond them. Of a sine that is, behind the start, the mean over its cycles at the same phase:
+ * where vortices are shed at a frequency of their own cycles differ, and no motion tells how. */
 void flow_record_subtract(const struct flow_record *r, double *y);
 
 struct dataset_def {

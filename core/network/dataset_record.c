@@ -234,14 +234,40 @@ void flow_record_steady(const struct flow_record *r, const struct polar *polar, 
     }
 }
 
+/* A row at a position between samples, by the cubic through four of them. */
+static double between(const struct flow_record *r, enum flow_row row, double position)
+{
+    const int i = (int)num_clamp(floor(position), 1.0, r->n - 3.0);
+    const double s = position - i;
+    return (s - 1.0) * (s - 2.0) * (3.0 * (s + 1.0) * value(r, row, i) - s * value(r, row, i - 1)) /
+               6.0 +
+           s * (s + 1.0) *
+               ((s - 1.0) * value(r, row, i + 2) - 3.0 * (s - 2.0) * value(r, row, i + 1)) / 6.0;
+}
+
+/* Mean of a row over all cycles behind the start, at the phase of sample i. */
+static double phase_mean(const struct flow_record *r, enum flow_row row, int first, int i)
+{
+    const double cycle = r->period / flow_record_step(r);
+    const int before = (int)((i - first) / cycle), behind = (int)((r->n - 1 - i) / cycle);
+    double sum = 0.0;
+    for (int k = -before; k <= behind; k++) {
+        sum += k == 0 ? value(r, row, i) : between(r, row, i + k * cycle);
+    }
+    return sum / (before + behind + 1);
+}
+
 void flow_record_subtract(const struct flow_record *r, double *y)
 {
     static const enum flow_row row[NET_OUT_COUNT] = {
         [NET_OUT_CL] = FLOW_CL, [NET_OUT_CM] = FLOW_CM, [NET_OUT_CD] = FLOW_CD};
+    const int first = flow_record_first(r);
     for (int i = 0; i < r->n; i++) {
         for (int o = 0; o < NET_OUT_COUNT; o++) {
             double *v = y + num_at(o, i, NET_OUT_COUNT);
-            *v = value(r, row[o], i) - *v;
+            *v = (r->period > 0.0 && i >= first ? phase_mean(r, row[o], first, i)
+                                                : value(r, row[o], i)) -
+                 *v;
         }
     }
 }

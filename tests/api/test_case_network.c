@@ -9,7 +9,8 @@
 static const char document[] =
     "{\"schema_version\":1,\"kind\":\"simulation\",\"networks\":[{\"name\":\"net\","
     "\"activation\":\"tanh\",\"polar_hash\":\"abc\",\"base\":\"dynamic_stall\","
-    "\"lags_c_v\":[0.5,3],\"inputs\":[\"%s\",\"stall_lost\"],\"outputs\":[\"cl\"],"
+    "\"lags_c_v\":[0.5,3],\"oscillators\":[{\"f_c_v\":0.7,\"damping\":0.25}],\"inputs\":[\"%s\","
+    "\"stall_lost\"],\"outputs\":[\"cl\"],"
     "\"hidden\":1,\"input_offset\":[0,0],\"input_scale\":[1,2],\"output_offset\":[0],"
     "\"output_scale\":[1],\"hull_min\":[-1,-1],\"hull_max\":[1,1],\"w1\":[[1,2]],\"b1\":[0],"
     "\"w2\":[[1]],\"b2\":[0]}],\"beam\":{\"length_m\":0.37,\"elements\":8,\"section\":{"
@@ -55,6 +56,10 @@ static void lags_and_base_are_read_and_printed(void **state)
     assert_int_equal(net->frame.base, NETWORK_ON_STALL);
     assert_int_equal(net->frame.n_lag, 2);
     assert_near_abs(net->frame.lag[1], 3.0, 0.0);
+    assert_int_equal(net->frame.n_oscillator, 1);
+    assert_near_abs(net->frame.oscillator[0].damping, 0.25, 0.0);
+    assert_non_null(strstr(api_case_canonical(c),
+                           "\"oscillators\":[{\"f_c_v\":0.7,\"damping\":0.25}],\"inputs\""));
     assert_int_equal(net->input[1], NET_IN_STALL_LOST);
     assert_non_null(strstr(api_case_canonical(c), "\"base\":\"dynamic_stall\",\"lags_c_v\""));
     api_case_destroy(c);

@@ -24,7 +24,8 @@
 #define LAG_CASE(more)                                                                             \
     "{\"schema_version\":1,\"kind\":\"training\",\"training\":{\"network\":\"lags\","              \
     "\"dataset\":\"plate-4pct\",\"polar\":\"plate-4pct-channel\",\"hidden\":3,\"epochs\":3,"       \
-    "\"base\":\"dynamic_stall\",\"lags_c_v\":[1,4],\"inputs\":[\"alpha_lag_2\",\"stall_bubble\"]," \
+    "\"base\":\"dynamic_stall\",\"lags_c_v\":[1,4],\"oscillators\":[{\"f_c_v\":0.7,"               \
+    "\"damping\":0.2}],\"inputs\":[\"alpha_lag_2\",\"stall_bubble\",\"alpha_oscillator_1\"],"      \
     "\"samples_max\":20,\"anchors\":10" more "}}"
 
 struct fixture {
@@ -172,6 +173,9 @@ static void test_lags_and_members(void **state)
     assert_int_equal(def->frame.base, NETWORK_ON_STALL);
     assert_int_equal(def->frame.n_lag, 2);
     assert_true(def->frame.lag[0] == 1.0 && def->frame.lag[1] == 4.0);
+    assert_int_equal(def->frame.n_oscillator, 1);
+    assert_true(def->frame.oscillator[0].frequency == 0.7);
+    assert_true(def->frame.oscillator[0].damping == 0.2);
     assert_string_equal(def->polar_hash, api_case_def(two)->aero.polar->hash);
     entry_set_done(&set);
     free(network);
@@ -192,6 +196,11 @@ static void test_refusals(void **state)
         {CASE(",\"base\":\"wake\""), "/training/base", "unknown_value"},
         {CASE(",\"lags_c_v\":[1,0]"), "/training/lags_c_v/1", "out_of_range"},
         {CASE(",\"lags_c_v\":[1,2,3,4,5]"), "/training/lags_c_v", "wrong_length"},
+        {CASE(",\"oscillators\":[{\"f_c_v\":1}]"), "/training/oscillators/0/damping", "required"},
+        {CASE(",\"oscillators\":[{\"f_c_v\":0,\"damping\":0.5}]"), "/training/oscillators/0/f_c_v",
+         "out_of_range"},
+        {CASE(",\"oscillators\":[{\"f_c_v\":1,\"damping\":1}]"), "/training/oscillators/0/damping",
+         "out_of_range"},
         {CASE(",\"members\":0"), "/training/members", "out_of_range"},
         {CASE(",\"folds\":1"), "/training/folds", "out_of_range"},
         {CASE(",\"members\":65"), "/training/members", "out_of_range"},
@@ -208,6 +217,11 @@ static void test_refusals(void **state)
          "\"dataset\":"
          "\"plate-4pct\",\"polar\":\"plate-4pct-channel\",\"hidden\":257,\"members\":2}}",
          "/training/members", "out_of_range"},
+        {"{\"schema_version\":1,\"kind\":\"training\",\"training\":{\"network\":\"swing\","
+         "\"dataset\":"
+         "\"plate-4pct\",\"polar\":\"plate-4pct-channel\",\"oscillators\":[],"
+         "\"inputs\":[\"pitch_rate_oscillator_1\"]}}",
+         "/training/inputs/0", "contradiction"},
         {"{\"schema_version\":1,\"kind\":\"training\",\"training\":{\"network\":\"lag\","
          "\"dataset\":"
          "\"plate-4pct\",\"polar\":\"plate-4pct-channel\",\"lags_c_v\":[1],"

@@ -130,13 +130,14 @@ class Train(unittest.TestCase):
         self.assertLess(abs(work / exact - 1.0), 0.05)
 
     def test_lags_a_base_members_and_folds(self):
-        arguments = ("--base", "attached", "--lags", "0.5,2", "--inputs", "alpha_lag_1,alpha_lag_2",
-                     "--members", 2, "--folds", 2, "--samples", 50, "--epochs", 20)
+        arguments = ("--base", "attached", "--lags", "0.5,2", "--oscillators", "0.7:0.2",
+                     "--inputs", "alpha_lag_1,alpha_oscillator_rate_1", "--members", 2, "--folds", 2, "--samples", 50, "--epochs", 20)
         result = self.train(*arguments)
         self.assertEqual(result.returncode, 0, result.stderr)
         document = json.loads(self.output.read_text())
         self.assertEqual((document["base"], document["lags_c_v"], document["hidden"]),
                          ("attached", [0.5, 2], 6))
+        self.assertEqual(document["oscillators"], [{"f_c_v": 0.7, "damping": 0.2}])
         self.assertEqual(document["polar_hash"], document["provenance"]["polar_hash"])
         self.assertEqual(len(document["provenance"]["members"]), 2)
         self.assertIn("# member 2 of 2", result.stdout)
@@ -182,6 +183,9 @@ class Train(unittest.TestCase):
                                 (("--inputs", "alpha,stall_lost"), "/inputs/1"),
                                 (("--base", "wake"), "--base"), (("--lags", "1,x"), "--lags"),
                                 (("--lags", "1,2,3,4,5"), "--lags"), (("--lags", 0), "/lags_c_v/0"),
+                                (("--oscillators", "0.7"), "--oscillators"),
+                                (("--oscillators", "1:0.5,1:0.5,1:0.5"), "--oscillators"),
+                                (("--oscillators", "1:1"), "/oscillators/0/damping"),
                                 (("--members", 0), "--members"), (("--folds", 1), "--folds"),
                                 (("--samples", 0), "--samples"), (("--anchors", -1), "--anchors"),
                                 (("--balance", 2), "--balance"), (("--tolerance", -1), "--tolerance"),

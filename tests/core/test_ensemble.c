@@ -1,5 +1,5 @@
 /* The mean of networks as one network, and its training on records. */
-#include "core/aero/network_lags.h"
+#include "core/aero/network_memory.h"
 #include "core/network/ensemble.h"
 #include "core/num.h"
 #include "tests/support/fixture.h"
@@ -71,18 +71,18 @@ static struct flow_record lagging(const char *name, double a, double omega, doub
     struct flow_record r = {.n = SAMPLES, .period = 2.0 * NUM_PI / omega, .start = 12.0};
     struct network_frame frame = {.n_lag = 1, .lag = {1.5}};
     const double chord = 1.0, step = 0.1;
-    struct network_lags lags;
+    struct network_memory lags;
     double in[NET_IN_COUNT];
     (void)strcpy(r.name, name);
     r.value = calloc((size_t)SAMPLES * FLOW_ROWS, sizeof *r.value);
-    assert_ok(network_lags_init(1, &chord, 1.0, step, &frame, &lags));
+    assert_ok(network_memory_init(1, &chord, 1.0, step, &frame, &lags));
     for (int i = 0; i < SAMPLES; i++) {
         const double t = i * step, alpha = a * sin(omega * t), rate = a * omega * cos(omega * t);
         const double none = 0.0;
         if (i == 0) {
-            network_lags_steady(&lags, &alpha, &none, in);
+            network_memory_steady(&lags, &alpha, &none, in);
         } else {
-            network_lags_step(&lags, &alpha, &rate, in);
+            network_memory_step(&lags, &alpha, &rate, in);
         }
         r.value[num_at(i, FLOW_TIME, SAMPLES)] = t;
         r.value[num_at(i, FLOW_THETA, SAMPLES)] = alpha;
@@ -91,7 +91,7 @@ static struct flow_record lagging(const char *name, double a, double omega, doub
         r.value[num_at(i, FLOW_CL, SAMPLES)] = slope * in[NET_IN_ALPHA_LAG_1];
         r.value[num_at(i, FLOW_CM, SAMPLES)] = 0.1 * slope * in[NET_IN_ALPHA_LAG_1];
     }
-    network_lags_done(&lags);
+    network_memory_done(&lags);
     return r;
 }
 

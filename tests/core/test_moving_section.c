@@ -9,8 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct network_frame full = {
-    .base = NETWORK_ON_STALL, .n_lag = 3, .lag = {0.5, 2.0, 9.0}};
+static const struct network_frame full = {.base = NETWORK_ON_STALL,
+                                          .n_lag = 3,
+                                          .lag = {0.5, 2.0, 9.0},
+                                          .n_oscillator = 2,
+                                          .oscillator = {{0.68, 0.1}, {0.9, 0.7}}};
 
 /* u = rate t from rest: x = rate (t - T (1 - e^(-t/T))), whatever the step. */
 static void lags_of_a_ramp(void **state)
@@ -19,10 +22,10 @@ static void lags_of_a_ramp(void **state)
     const double chord[2] = {0.1, 0.25}, speed = 5.0;
     static const double step[] = {1e-4, 0.03, 0.7};
     for (size_t k = 0; k < sizeof step / sizeof step[0]; k++) {
-        struct network_lags l;
+        struct network_memory l;
         double in[2 * NET_IN_COUNT], alpha[2] = {0.0, 0.0}, pitch[2] = {0.3, 0.3};
-        assert_ok(network_lags_init(2, chord, speed, step[k], &full, &l));
-        network_lags_steady(&l, alpha, pitch, in);
+        assert_ok(network_memory_init(2, chord, speed, step[k], &full, &l));
+        network_memory_steady(&l, alpha, pitch, in);
         double t = 0.0;
         for (int i = 0; i < 20; i++) {
             t += step[k];
@@ -30,7 +33,7 @@ static void lags_of_a_ramp(void **state)
                 alpha[s] = 0.2 * t;
                 pitch[s] = 0.3 - 0.1 * t;
             }
-            network_lags_step(&l, alpha, pitch, in);
+            network_memory_step(&l, alpha, pitch, in);
         }
         for (int s = 0; s < 2; s++) {
             for (int lag = 0; lag < full.n_lag; lag++) {
@@ -43,11 +46,88 @@ static void lags_of_a_ramp(void **state)
             assert_true(in[num_at(s, NET_IN_ALPHA_LAG_4, 2)] == 0.0); /* there are three */
             assert_true(in[num_at(s, NET_IN_ALPHA, 2)] == alpha[s]);
         }
-        network_lags_done(&l);
+        network_memory_done(&l);
     }
 }
 
-/* Whatever it stands on: at rest the polar, and all angles behind lags are the angle. */
+/* x and x'/w of x'' + 2 zeta w x' + w^2 (x - t) = 0 from rest. */
+static void swing_of_a_ramp(double w, double zeta, double t, double *x, double *rate)
+{
+    const double root = w * sqrt(1.0 - zeta * zeta), decay = exp(-zeta * w * t);
+    const double c = cos(root * t), s = sin(root * t);
+    *x = t - 2.0 * zeta / w + decay * (2.0 * zeta / w * c + (2.0 * zeta * zeta - 1.0) / root * s);
+    *rate = (1.0 - decay * (c + zeta * w / root * s)) / w;
+}
+
+static void oscillators_of_a_ramp(void **state)
+{
+    (void)state;
+    const double chord[2] = {0.1, 0.25}, speed = 5.0;
+    static const double step[] = {1e-4, 0.003, 0.07};
+    for (size_t k = 0; k < sizeof step / sizeof step[0]; k++) {
+        struct network_memory m;
+        double in[2 * NET_IN_COUNT], alpha[2] = {0.4, 0.4}, pitch[2] = {0.3, 0.3};
+        assert_ok(network_memory_init(2, chord, speed, step[k], &full, &m));
+        network_memory_steady(&m, alpha, pitch, in);
+        double t = 0.0;
+        for (int i = 0; i < 20; i++) {
+            t += step[k];
+            for (int s = 0; s < 2; s++) {
+                alpha[s] = 0.4 + 0.2 * t;
+                pitch[s] = 0.3 - 0.1 * t;
+            }
+            network_memory_step(&m, alpha, pitch, in);
+        }
+        for (int s = 0; s < 2; s++) {
+            for (int o = 0; o < full.n_oscillator; o++) {
+                const struct network_oscillator *osc = &full.oscillator[o];
+                double x = 0.0, rate = 0.0;
+                swing_of_a_ramp(2.0 * NUM_PI * osc->frequency * speed / chord[s], osc->damping, t,
+                                &x, &rate);
+                const int a = NET_IN_ALPHA_OSCILLATOR_1 + 2 * o;
+                const int p = NET_IN_PITCH_OSCILLATOR_1 + 2 * o;
+                assert_near_abs(in[num_at(s, a, 2)], 0.4 + 0.2 * x, 1e-13);
+                assert_near_abs(in[num_at(s, a + 1, 2)], 0.2 * rate, 1e-13);
+                assert_near_abs(in[num_at(s, p, 2)], 0.3 - 0.1 * x, 1e-13);
+                assert_near_abs(in[num_at(s, p + 1, 2)], -0.1 * rate, 1e-13);
+            }
+        }
+        network_memory_done(&m);
+    }
+}
+
+/* Driven at its own frequency an oscillator answers 1/(2 zeta) times as large, a quarter late; far
+ * above, against the input and as (f0/f)^2. Steps of 1/200 period: 1e-4 of a straight line. */
+static void an_oscillator_resonates_and_stands_still(void **state)
+{
+    (void)state;
+    const double one = 1.0, none = 0.0;
+    const struct network_frame frame = {.n_oscillator = 1, .oscillator = {{0.5, 0.05}}};
+    static const double ratio[] = {1.0, 40.0};
+    for (int k = 0; k < 2; k++) {
+        const double f = 0.5 * ratio[k], step = 0.005 / f, r2 = ratio[k] * ratio[k];
+        struct network_memory m;
+        double in[NET_IN_COUNT], sine = 0.0, cosine = 0.0;
+        assert_ok(network_memory_init(1, &one, 1.0, step, &frame, &m));
+        network_memory_steady(&m, &none, &none, in);
+        const int cycles = 1600;
+        for (int i = 1; i <= 200 * cycles; i++) {
+            const double phase = 2.0 * NUM_PI * (i % 200) / 200.0, u = sin(phase);
+            network_memory_step(&m, &u, &none, in);
+            if (i > 200 * (cycles - 1)) {
+                sine += in[NET_IN_ALPHA_OSCILLATOR_1] * sin(phase) / 100.0;
+                cosine += in[NET_IN_ALPHA_OSCILLATOR_1] * cos(phase) / 100.0;
+            }
+        }
+        const double size = num_sq(1.0 - r2) + num_sq(0.1 * ratio[k]);
+        assert_near_abs(sine * size, 1.0 - r2, 2e-4 * sqrt(size));
+        assert_near_abs(cosine * size, -0.1 * ratio[k], 2e-4 * sqrt(size));
+        network_memory_done(&m);
+    }
+}
+
+/* Whatever it stands on: at rest the polar, and all angles behind lags and oscillators are the
+ * angle. */
 static void steady_flow_is_the_polar(void **state)
 {
     (void)state;
@@ -68,6 +148,8 @@ static void steady_flow_is_the_polar(void **state)
                 assert_near_abs(v.cm, p.cm, 1e-14);
                 assert_near_abs(v.cd, p.cd, 1e-14);
                 assert_near_abs(s.input[NET_IN_ALPHA_LAG_3], theta, 1e-15);
+                assert_near_abs(s.input[NET_IN_ALPHA_OSCILLATOR_2], theta, 1e-15);
+                assert_true(s.input[NET_IN_ALPHA_SWING_2] == 0.0);
                 assert_true(s.input[NET_IN_PITCH_RATE] == 0.0);
             }
         }
@@ -80,9 +162,9 @@ static void steady_flow_is_the_polar(void **state)
 /* All inputs a network can see that have a memory of their own. */
 static struct network_def remembering(void)
 {
-    static const enum network_input seen[] = {NET_IN_ALPHA,        NET_IN_PITCH_RATE,
-                                              NET_IN_ALPHA_LAG_2,  NET_IN_PITCH_LAG_3,
-                                              NET_IN_STALL_BUBBLE, NET_IN_STALL_LOST};
+    static const enum network_input seen[] = {
+        NET_IN_ALPHA,         NET_IN_PITCH_RATE,         NET_IN_ALPHA_LAG_2,  NET_IN_PITCH_LAG_3,
+        NET_IN_ALPHA_SWING_1, NET_IN_PITCH_OSCILLATOR_2, NET_IN_STALL_BUBBLE, NET_IN_STALL_LOST};
     enum { SEEN = sizeof seen / sizeof seen[0], HIDDEN = 5 };
     struct network_def d = fixture_network(HIDDEN, 0.3, 8);
     uint64_t seed = 2;
@@ -184,6 +266,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lags_of_a_ramp),
+        cmocka_unit_test(oscillators_of_a_ramp),
+        cmocka_unit_test(an_oscillator_resonates_and_stands_still),
         cmocka_unit_test(steady_flow_is_the_polar),
         cmocka_unit_test(stations_of_a_march_are_such_sections),
     };

@@ -267,6 +267,36 @@ static void every_fault_of_a_network_is_named(void **state)
     network_def_done(&d);
 }
 
+/* Oscillators that are none, inputs behind oscillators there are none of. */
+static void inputs_need_their_oscillator(void **state)
+{
+    (void)state;
+    struct network_def d = fixture_network(2, 1.0, 3);
+    d.frame = (struct network_frame){.n_oscillator = 2, .oscillator = {{0.7, 0.1}, {1.0, 0.7}}};
+    d.input[0] = NET_IN_ALPHA_SWING_2;
+    d.input[1] = NET_IN_PITCH_OSCILLATOR_1;
+    static struct failure_list none;
+    network_def_check(&d, "/n", &none);
+    assert_int_equal(none.total, 0);
+    static const double wrong[] = {0.0, -1.0, 1.0, 1e3, (double)NAN};
+    for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
+        d.frame.oscillator[1].damping = wrong[k];
+        assert_refused(&d, "/n/oscillators/1/damping");
+        d.frame.oscillator[1].damping = 0.7;
+        if (wrong[k] != 1.0) {
+            d.frame.oscillator[0].frequency = wrong[k];
+            assert_refused(&d, "/n/oscillators/0/f_c_v");
+            d.frame.oscillator[0].frequency = 0.7;
+        }
+    }
+    d.frame.n_oscillator = 1;
+    assert_refused(&d, "/n/inputs/0");
+    d.input[0] = NET_IN_ALPHA;
+    d.input[1] = NET_IN_PITCH_SWING_2;
+    assert_refused(&d, "/n/inputs/1");
+    network_def_done(&d);
+}
+
 /* Lags that are none, inputs behind lags there are none of, states without their model. */
 static void inputs_need_their_lag_and_base(void **state)
 {
@@ -319,6 +349,7 @@ int main(void)
         cmocka_unit_test(tanh_at_its_corners),
         cmocka_unit_test(every_fault_of_a_network_is_named),
         cmocka_unit_test(inputs_need_their_lag_and_base),
+        cmocka_unit_test(inputs_need_their_oscillator),
         cmocka_unit_test(polars_are_told_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
