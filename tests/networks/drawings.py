@@ -42,22 +42,32 @@ def caption(cycles):
         yield "The motion of Fig. B.16 is %s in this draw." % text_of(part)
 
 
+def energy_unknown(study):
+    """Median of what the flow computations do not know of the work of the pitch, by that work."""
+    rows = build_loops.ask.rows(build_loops.CFD / "harmonics.csv")
+    parts = build_loops.uncertainty.shares(rows)
+    names = {study.records[r]["name"] for r in study.pitching()}
+    return statistics.median(build_loops.uncertainty.of_pitch_work(row, parts) / abs(float(row["work_pitch"]))
+                             for row in rows if row["name"] in names)
+
+
 def energy(study):
     networks = [n for n in NETWORKS if n[0] == "lm"] + [MEMORY]
     ticks = [(i, "LSTM" if n == MEMORY else "%d" % n[1]) for i, n in enumerate(networks)]
     share = [(0.5 * k, "%d" % (50 * k)) for k in range(-4, 5)]
-    parts = []
+    parts, unknown = [], energy_unknown(study)
     for left, part, colour in ((70, "trained", TRAINED), (540, "held", HELD)):
         panel = svg.Panel(left, 46, 400, 300, svg.Axis(-0.6, len(networks) - 0.4, ticks, label="neurons"),
                           svg.Axis(-WIDEST, WIDEST, share, label="energy error [%]" if part == "trained" else ""),
                           "records %s" % text_of(part))
-        panel.curve((-0.6, len(networks) - 0.4), (0.0, 0.0), svg.BLACK, 1)
+        for level in (-unknown, 0.0, unknown):
+            panel.curve((-0.6, len(networks) - 0.4), (level, level), svg.BLACK, 1, dash="4 4" if level else "")
         for i, network in enumerate(networks):
             errors = study.energy_errors(network, part)
             panel.box(i, [quantile(errors, q) for q in QUANTILES], colour)
         parts.append(panel)
-    note = ('<text x="70" y="412">box: quartiles and median; line: 10 to 90 %; beyond 200 % drawn at 200 %; '
-            '-100 %: no work at all, the polar alone</text>')
+    note = ('<text x="70" y="412">box: quartiles and median; line: 10 to 90 %%; beyond 200 %% drawn at 200 %%; -100 %%: no work '
+            'at all, the polar alone; dashed: known within ±%.0f %% (median)</text>' % (100.0 * unknown))
     return svg.document(960, 430, "Energy error of a cycle over the number of neurons", parts + [note])
 
 

@@ -22,9 +22,11 @@ sys.path.insert(0, str(ROOT / "tests" / "loops"))
 import build_loops  # noqa: E402
 import ask  # noqa: E402
 import motion  # noqa: E402
+import plunging  # noqa: E402
 
 CFD = ROOT / "data" / "cfd"
 PAGE = ROOT / "docs" / "PLATE_NETWORK.md"
+DRAWING = ROOT / "docs" / "plate_network" / "plunging.svg"
 NETWORK = ROOT / "data" / "networks" / "plate-4pct.json"
 POLAR = ROOT / "data" / "polars" / "plate-4pct-channel.json"
 FOLDS = "6"
@@ -306,7 +308,7 @@ def cost_lines(aerom):
 
 
 def page(aerom, folds):
-    before, small, beam, cost, after = Path(__file__).with_name("text.md").read_text(
+    before, small, plunge, beam, cost, after = Path(__file__).with_name("text.md").read_text(
         encoding="utf-8").split("<!-- numbers -->\n")
     items = collect(aerom, folds)
     yield before.rstrip("\n")
@@ -330,6 +332,15 @@ def page(aerom, folds):
     yield ("In steady flow from 0 to 16 deg the network adds at most %.3f to c_l and %.4f to c_m. The mesh of the records and that of the "
            "polar differ by up to %.3f and %.4f up to %g deg, c_l with the same sign as the network at 4 to 12 deg: part of what it adds "
            "are the levels of its records." % (worst["cl"], worst["cm"], meshes["cl"], meshes["cm"], KNEE_DEG))
+    yield ""
+    yield plunge.strip("\n")
+    yield ""
+    rows = list(plunging.found(aerom, items))
+    DRAWING.parent.mkdir(exist_ok=True)
+    DRAWING.write_text(plunging.drawing(aerom, rows), encoding="utf-8")
+    yield "![damping of small plunging over the frequency](plate_network/plunging.svg)"
+    yield ""
+    yield from plunging.table(rows)
     yield ""
     yield beam.strip("\n")
     yield ""

@@ -212,6 +212,18 @@ def shedding_sines():
     return swings("sine_shedding", (("plunge", 8, 801), ("both", 3, 821)), (0.5, 1.6), 2, (3.5, 8.0), (0.5, 1.2), 0.5)
 
 
+def bubble_sines():
+    """About angles at which the bubble is open, below the frequency of the shedding and at it, where the damping of small
+    plunging changes fastest with the frequency and second bending and torsion of a beam are."""
+    return swings("sine_bubble", (("plunge", 12, 901), ("both", 9, 921), ("pitch", 7, 941)), (0.3, 0.9), 2, (3.5, 8.0),
+                  (0.4, 1.2), 0.7)
+
+
+def beyond_sines():
+    """Faster than the shedding, with swings that stand out of its scatter: what damps third bending there."""
+    return swings("sine_beyond", (("plunge", 12, 1001), ("both", 6, 1021)), (0.85, 1.8), 2, (2.0, 8.0), (1.5, 3.5), 0.3)
+
+
 def anchors(block, suffix="", points=None, **settings):
     """Cases of the literature and of earlier studies, repeated under other settings."""
     for mean, amplitude, frequency in points or ((2.5, 5, 0.125), (8, 6, 0.06), (5, 7, 0.25),
@@ -308,9 +320,10 @@ def motion_checks():
 
 
 def drawn_checks():
-    """Every seventh of the sines at the knee, and of the small ones with those of torsion, in the order they are
-    drawn in, on the coarse mesh with half the step: the anchors above are large motions."""
-    for row in knee_sines()[3::7] + (small_sines() + torsion_sines())[3::7]:
+    """Every seventh of the sines over the open bubble, of those at the knee, and of the small ones with those of torsion,
+    in the order they are drawn in, on the coarse mesh with half the step: the anchors above are large motions. The
+    first lot is drawn so that plunging about 4.5 deg at f = 0.43 is in it, where the flow feeds it."""
+    for row in bubble_sines()[5::7] + knee_sines()[3::7] + (small_sines() + torsion_sines())[3::7]:
         yield dict(row, name=row["name"] + "_coarse", block="check_drawn", mesh="coarse", step=0.5 * row["step"])
 
 
@@ -337,11 +350,13 @@ def document_rows():
     place = {"static": (0.0, 0.0), "static_coarse": (0.0, 0.04), "static_plunge": (0.0, 0.05),
              "check_static": (0.0, 0.15), "check_sine_both": (0.0, 0.1), "sine_small": (1.0, 0.5),
              "sine_torsion": (1.0, 0.5), "sine_knee": (1.5, 0.0), "sine_shedding": (1.5, 0.0),
+             "sine_bubble": (1.5, 0.0), "sine_beyond": (1.5, 0.0),
              "check_drawn": (1.5, 0.5), "reynolds": (1.0, 1.0)}
     blocks = {}
     for source in (statics(), anchors("sine_pitch_slow"), plunge_anchors(), sines(), broadband(),
                    statics_off_centre(), statics_coarse(), slope_checks(), reynolds(), motion_checks(), both_checks(),
-                   small_sines(), torsion_sines(), knee_sines(), shedding_sines(), drawn_checks()):
+                   small_sines(), torsion_sines(), knee_sines(), shedding_sines(), bubble_sines(), beyond_sines(),
+                   drawn_checks()):
         for row in source:
             blocks.setdefault(row["block"], []).append(row)
     ranked = []

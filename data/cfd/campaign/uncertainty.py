@@ -9,7 +9,7 @@ import math
 # Beyond, the production mesh loses the vortices that leave the plate (../README.md): it says little of work there.
 DEEP_DEG = 14.1
 # A motion that never comes below it swings over a bubble that stays open, and sheds on its own.
-OPEN_DEG = 3.5
+OPEN_DEG = 3.0
 ATTACHING, OPEN, DEEP = KINDS = ("attaching", "open", "deep")
 CHANGES = ("_step0.01", "_step0.005", "_coarse")
 
@@ -58,3 +58,8 @@ def shares(rows):
 def of_work(row, parts):
     """Uncertainty of the work of a row: mesh and step, a part of the size, and the scatter of its cycles."""
     return math.hypot(*(parts[kind(row)] * size for size in sizes(row)), float(row["work_sd"]))
+
+
+def of_pitch_work(row, parts):
+    """The same of the work of the pitch alone."""
+    return math.hypot(parts[kind(row)] * sizes(row)[0], float(row["work_pitch_sd"]))

@@ -1,0 +1,72 @@
+"""Small plunging over the open bubble, at the frequency of the shedding and around it: damping by that of thin-aerofoil
+theory, of records, of the network that has not seen them, and of the shipped one over the frequency. Python 3 standard
+library."""
+
+import math
+
+import ask
+import svg
+
+MEANS_DEG = (3.5, 8.5)      # angles about which the bubble is open
+SLOWEST = 0.25              # f c/V
+DRAWN_MEAN, DRAWN_SWING = 5.0, 0.5  # deg, of the curves
+FREQUENCIES = [0.2 * 1.04 ** k for k in range(58)]
+THEORY = ("--dynamic", "attached", "--polar", "flat-plate-linear")
+MODELS = ((("--dynamic", "dynamic_stall"), "dynamic stall", svg.GREEN),
+          (("--dynamic", "network", "--network", "plate-4pct"), "network", svg.ORANGE))
+
+
+def work(aerom, dynamic, mean_deg, plunge, frequency):
+    text = ask.run(aerom, "loop", "--mean-deg", mean_deg, "--plunge", "%r" % plunge, "--frequency", "%r" % frequency,
+                   "--cycles", 30, "--steps", 100, *dynamic)
+    return float(text.splitlines()[-1].split()[2])
+
+
+def incidence_deg(plunge, frequency):
+    return math.degrees(2.0 * math.pi * frequency * plunge)
+
+
+def found(aerom, items):
+    """Of the items of build_network those that plunge alone, with their damping by that of theory, by frequency."""
+    for item in sorted(items, key=lambda i: i["frequency"] or 0.0):
+        row = item["row"]
+        if item["frequency"] is None or row["pitch"] or item["frequency"] < SLOWEST \
+                or not MEANS_DEG[0] <= float(row["mean_deg"]) <= MEANS_DEG[1]:
+            continue
+        plunge = float(row["plunge"].split("@")[0])
+        theory = work(aerom, THEORY, row["mean_deg"], plunge, item["frequency"])
+        yield {"name": item["name"], "frequency": item["frequency"], "mean": float(row["mean_deg"]),
+               "swing": incidence_deg(plunge, item["frequency"]), "record": item["work"] / theory,
+               "error": abs(item["uncertain"] / theory), "stall": item["dynamic_stall"]["work"] / theory,
+               "network": item["lags"]["work"] / theory}
+
+
+def table(rows):
+    yield "| record | f c/V | about | incidence | record | dynamic stall | network, not trained on it |"
+    yield "|---|---|---|---|---|---|---|"
+    for r in rows:
+        yield "| `%s` | %.2f | %g deg | ± %.1f deg | %+.2f ± %.2f | %+.2f | %+.2f |" % (
+            r["name"], r["frequency"], r["mean"], r["swing"], r["record"], r["error"], r["stall"], r["network"])
+
+
+def drawing(aerom, rows):
+    """Damping over the frequency: marks of the records, curves of the models about one angle."""
+    ticks = [(f, "%g" % f) for f in (0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.4, 1.8)]
+    panel = svg.Panel(70, 46, 640, 330, svg.Axis(0.2, 1.9, ticks, log=True, label="f c/V"),
+                      svg.Axis(-3.0, 5.0, label="damping by that of thin-aerofoil theory"),
+                      "Plunging a little about 3.5 to 8.5 deg: below zero the flow feeds it")
+    panel.curve((0.2, 1.9), (0.0, 0.0), svg.GREY, 1.0)
+    for dynamic, _, colour in MODELS:
+        plunge = [math.radians(DRAWN_SWING) / (2.0 * math.pi * f) for f in FREQUENCIES]
+        panel.curve(FREQUENCIES, [work(aerom, dynamic, DRAWN_MEAN, w, f) / work(aerom, THEORY, DRAWN_MEAN, w, f)
+                                  for w, f in zip(plunge, FREQUENCIES)], colour, 2)
+    for r in rows:
+        if r["swing"] < 3.0:
+            panel.curve((r["frequency"],) * 2, (r["record"] - r["error"], r["record"] + r["error"]), svg.BLACK, 1.2)
+            for value, fill in ((r["record"], svg.BLACK), (r["network"], svg.ORANGE)):
+                panel.svg.append('<circle cx="%.1f" cy="%.1f" r="4" fill="%s" stroke="%s"/>' % (
+                    panel.x(r["frequency"]), panel.y(value), fill, svg.BLACK))
+    names = [(svg.BLACK, "flow computations"), (svg.ORANGE, "network: not trained on the record; about 5 deg"),
+             (svg.GREEN, "dynamic stall about 5 deg")]
+    parts = [panel] + [part for k, entry in enumerate(names) for part in svg.legend([entry], 70 + (0, 190, 540)[k], 446, 0)]
+    return svg.document(800, 466, "Damping of small plunging over the frequency", parts)
