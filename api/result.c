@@ -83,6 +83,8 @@ static void write_means(struct json_out *out, const struct sim_result *r)
     write_window(out, r->means.window_from, r->means.window_to);
     json_key_number(out, "tip_plunge_m", r->means.tip_plunge);
     json_key_number(out, "tip_twist_deg", r->means.tip_twist * degrees);
+    json_key_number(out, "tip_plunge_rms_m", r->means.plunge_rms);
+    json_key_number(out, "tip_twist_rms_deg", r->means.twist_rms * degrees);
     json_key_number(out, "cl", r->means.cl);
     json_key_number(out, "cm", r->means.cm);
     json_key_number(out, "cd", r->means.cd);

@@ -186,6 +186,8 @@ static void report_means(const struct sim *s, struct sim_result *out)
     out->means.window_to = (r->n - 1) * dt;
     out->means.tip_plunge = history_mean(r, HISTORY_PLUNGE, from);
     out->means.tip_twist = history_mean(r, HISTORY_TWIST, from);
+    out->means.plunge_rms = damping_fluctuation(record_history(r, HISTORY_PLUNGE), from, r->n);
+    out->means.twist_rms = damping_fluctuation(record_history(r, HISTORY_TWIST), from, r->n);
     out->means.cl = history_mean(r, HISTORY_CL, from);
     out->means.cd =
         polar_def_has_drag(def->aero.polar) ? history_mean(r, HISTORY_CD, from) : (double)NAN;

@@ -88,6 +88,7 @@ struct sim_result {
     struct {
         double window_from, window_to;
         double tip_plunge, tip_twist, cl, cm, cd, lift, drag, moment; /* SI, rad */
+        double plunge_rms, twist_rms; /* of the tip about its means: how much it swings */
         double efficiency; /* lift over drag; NaN, as c_d and drag, if the polar has no drag */
     } means;
     struct span_loads loads; /* over the same window; a little longer after an early stop */

@@ -122,6 +122,15 @@ static void the_report_hangs_together(void **state)
         cl += sim_column(sim, 2)[i] / 5001.0;
     }
     assert_near_rel(r->means.cl, cl, 1e-10);
+    for (int k = 0; k < 2; k++) { /* and what the tip swings about them */
+        const double *y = sim_column(sim, k);
+        const double mean = k == 0 ? r->means.tip_plunge : r->means.tip_twist;
+        double square = 0.0;
+        for (int i = 10000; i <= 15000; i++) {
+            square += num_sq(y[i] - mean) / 5001.0;
+        }
+        assert_near_rel(k == 0 ? r->means.plunge_rms : r->means.twist_rms, sqrt(square), 1e-9);
+    }
     assert_near_rel(r->means.window_from, 2.0, 1e-9);
     /* The loads along the span are of the same window and sum up to its means. */
     double lift = 0.0, drag = 0.0;

@@ -19,10 +19,11 @@ import svg  # noqa: E402
 PAGE = ROOT / "docs" / "PAPER.md"
 DRAWINGS = ROOT / "docs" / "paper"
 TEXT = Path(__file__).resolve().parent / "text.md"
-COLOURS = (svg.BLUE, svg.BLACK, svg.RED, svg.ORANGE, svg.GREY)
+COLOURS = (svg.BLUE, svg.BLACK, svg.RED, svg.ORANGE, svg.GREEN, svg.GREY)
+SWING = "twist swings by 1 deg"
 # Figs. 11, 12a and 13.
 MAPS = (("verdict", "verdict"), ("twist", "tip_twist_deg"), ("plunge", "tip_plunge_m"),
-        ("torsion", "damping.tip_twist"),
+        ("torsion", "damping.tip_twist"), ("swing", "tip_twist_rms_deg"),
         ("lift", "cl"), ("moment", "cm"), ("efficiency", "efficiency"))
 
 
@@ -32,7 +33,7 @@ def write(name, text):
 
 
 def draw_means(found):
-    """Figs. 9 and 10: tip plunge and twist over E* while the beam is stable."""
+    """Figs. 9 and 10: tip plunge and twist over E* as long as they are small."""
     ticks = [(e, "%.1f" % (e / 1e6)) for e in (0.2e6, 0.4e6, 0.6e6, 0.8e6, 1.0e6, 1.2e6)]
     panels = []
     for k, (value, label, low, high) in enumerate((("tip_plunge_m", "tip plunge over length", 0.0, 1.0),
@@ -43,7 +44,7 @@ def draw_means(found):
             row = results.ANGLES.index(angle)
             points = [(cells.e_star_of(speed), y / 0.37 if value == "tip_plunge_m" else y)
                       for speed, y, verdict in zip(results.SPEEDS, found[value][row], found["verdict"][row])
-                      if y is not None and verdict == "stable" and cells.e_star_of(speed) < 1.2e6]
+                      if y is not None and verdict != "large_deflection" and cells.e_star_of(speed) < 1.2e6]
             if points:
                 panel.curve(*zip(*points), colour, 2)
         panels.append(panel)
@@ -99,7 +100,7 @@ def draw_boundaries(curves):
         if points:
             panel.curve(*zip(*points), colour, 2)
     write("boundaries", svg.document(950, 470, "Speed up to which the beam is stable", [panel] + svg.legend(
-        [(colour, name) for (name, _), colour in zip(curves, COLOURS)], 70, 446, 160)))
+        [(colour, name) for (name, _), colour in zip(curves, COLOURS)], 70, 446, 140)))
 
 
 def speed_text(row):
@@ -169,10 +170,17 @@ def modal_table(moments):
             yield "| %.2f | %d | %s | %s | %s |" % (speed, angle, *shares, summary["verdict"])
 
 
-def rise_table(found, curves, model):
-    """Mean tip twist and the rise of c_l over a rigid beam at the boundary."""
-    rows = dict(curves)[model]
-    yield "| fibres [deg] | boundary [m/s] | E* / 1e6 | tip twist there [deg] | rise of c_l over that at 2 m/s |"
+def structural_table(rows):
+    yield "| damping ratio | %s |" % " | ".join("%d deg" % angle for angle in results.DESIGNS)
+    yield "|---" * (1 + len(results.DESIGNS)) + "|"
+    for ratio, found in rows:
+        yield "| %g | %s |" % (ratio, " | ".join(speed_text(row) for row in found))
+
+
+def rise_table(found, curves):
+    """Mean tip twist and the rise of c_l over a rigid beam where the twist swings by 1 deg."""
+    rows = dict(curves)[SWING]
+    yield "| fibres [deg] | speed [m/s] | E* / 1e6 | tip twist there [deg] | rise of c_l over that at 2 m/s |"
     yield "|---|---|---|---|---|"
     for angle in range(-90, 91, 30):
         k, row = results.ANGLES.index(angle), rows[results.BOUNDARY_ANGLES.index(angle)]
@@ -205,7 +213,8 @@ def compute(service, model, aerom):
     grid = results.the_map(service, dynamic)
     studies = {name: results.boundary_study(service, [(cells.DYNAMIC, d)], results.BOUNDARY_ANGLES, results.STABLE)
                for name, d in results.MODELS}
-    limit = studies[model].rsplit("/", 1)[1]
+    studies[SWING] = results.boundary_study(service, [(cells.DYNAMIC, dynamic)], results.BOUNDARY_ANGLES, results.SWING)
+    limit = studies[SWING].rsplit("/", 1)[1]
     for name, value in MAPS:
         write("map-" + name, service.get("%s/map?value=%s&format=svg&boundary=%s" % (grid, value, limit)))
     found = {value: service.get("%s/map?value=%s" % (grid, value))["values"] for value in results.VALUES}
@@ -214,14 +223,16 @@ def compute(service, model, aerom):
     curves = [(name, service.get(study + "/boundary")["rows"]) for name, study in studies.items()]
     for row in curves[-1][1]:
         row["more"] = False  # past flutter the mean plunge falls below it again: no news
-    rows = [(name, results.boundaries(service, [(cells.DYNAMIC, dynamic), *changes], results.DESIGNS))
+    rows = [(name, results.boundaries(service, [(cells.DYNAMIC, dynamic), *changes], results.DESIGNS, results.SWING))
             for name, changes in results.SENSITIVITY]
+    damped = [(ratio, results.boundaries(service, [(cells.DYNAMIC, dynamic), ("/solver/modal_damping_ratio", ratio)],
+                                         results.DESIGNS, results.STABLE)) for ratio in results.STRUCTURAL]
     trained = [rows[0]] + [
         (name, results.boundaries(service, [(cells.DYNAMIC, dict(results.MODELS)["network"]), ("/networks", [network])],
-                                  results.DESIGNS)) for name, network in results.trained_again(aerom)]
-    speeds = (cells.speed_of(results.MARKED_E_STAR), middle_speed(dict(curves)[model]))
+                                  results.DESIGNS, results.SWING)) for name, network in results.trained_again(aerom)]
+    speeds = (cells.speed_of(results.MARKED_E_STAR), middle_speed(dict(curves)[SWING]))
     moments = {speed: results.marked(service, dynamic, speed) for speed in speeds}
-    return found, curves, moments, rows, trained, results.convergence(service, dynamic)
+    return found, curves, moments, rows, damped, trained, results.convergence(service, dynamic)
 
 
 def main():
@@ -231,7 +242,7 @@ def main():
     parser.add_argument("--model", default="network", choices=[name for name, _ in results.MODELS])
     arguments = parser.parse_args()
     with cells.Service(arguments.aeromd, arguments.workers) as service:
-        found, curves, moments, rows, trained, converged = compute(service, arguments.model,
+        found, curves, moments, rows, damped, trained, converged = compute(service, arguments.model,
                                                                    Path(arguments.aeromd).with_name("aerom"))
     draw_means(found)
     draw_signals(moments)
@@ -240,7 +251,8 @@ def main():
     draw_convergence(converged)
     tables = {"boundaries": boundary_table(curves), "sensitivity": sensitivity_table(rows), "trainings": sensitivity_table(trained),
               "convergence": convergence_table(converged), "modal": modal_table(moments),
-              "rise": rise_table(found, curves, arguments.model)}
+              "rise": rise_table(found, curves),
+              "structural": structural_table(damped)}
     page = TEXT.read_text(encoding="utf-8").replace("{model}", arguments.model)
     for name, fastest in (("{hull_9}", 9.0), ("{hull_10}", 10.0), ("{hull}", 16.0)):
         page = page.replace(name, "%.2g %%" % (100.0 * hull_share(found, fastest)))

@@ -39,7 +39,7 @@ class Paper(unittest.TestCase):
 
     def test_boundary_lies_in_the_grid(self):
         """A search and a grid of 0.25 m/s agree on where the beam is stable no more."""
-        rows = results.boundaries(self.service, [(cells.DYNAMIC, NETWORK)], (0,))
+        rows = results.boundaries(self.service, [(cells.DYNAMIC, NETWORK)], (0,), results.STABLE)
         speeds = [9.5 + 0.25 * k for k in range(9)]
         verdicts = self.service.grid([(cells.DYNAMIC, NETWORK), (cells.ANGLE, 0)], [(cells.SPEED, speeds)],
                                      ("verdict",))["verdict"]
