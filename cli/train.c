@@ -2,6 +2,7 @@
 
 #include "api/both_threads.h"
 #include "cli/command.h"
+#include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/training.h"
 
@@ -33,9 +34,12 @@ static bool succeed(struct training *t, enum status st, const char *what)
 /* The network moves on into the entry. */
 static enum status run(struct training *t)
 {
-    const struct sim_control control = {.both = both_threads};
+    struct progress progress;
+    progress_start(&progress);
+    const struct sim_control control = {.both = both_threads, .progress = &progress.share};
     const enum status st =
         training_run(&t->def, t->records.n, t->records.record, &control, &t->result, t->problems);
+    progress_stop(&progress);
     t->entry.def = t->result.network;
     t->result.network = (struct network_def){.n_in = 0};
     return st;

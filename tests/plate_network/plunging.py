@@ -66,7 +66,7 @@ def drawing(aerom, rows):
             for value, fill in ((r["record"], svg.BLACK), (r["network"], svg.ORANGE)):
                 panel.svg.append('<circle cx="%.1f" cy="%.1f" r="4" fill="%s" stroke="%s"/>' % (
                     panel.x(r["frequency"]), panel.y(value), fill, svg.BLACK))
-    names = [(svg.BLACK, "flow computations"), (svg.ORANGE, "network: not trained on the record; about 5 deg"),
-             (svg.GREEN, "dynamic stall about 5 deg")]
-    parts = [panel] + [part for k, entry in enumerate(names) for part in svg.legend([entry], 70 + (0, 190, 540)[k], 446, 0)]
-    return svg.document(800, 466, "Damping of small plunging over the frequency", parts)
+    names = [(svg.BLACK, "flow computation"), (svg.ORANGE, "network about 5 deg"), (svg.GREEN, "dynamic stall about 5 deg")]
+    note = '<text x="70" y="466">orange marks: the motion of the record, by a network not trained on it</text>'
+    return svg.document(760, 484, "Damping of small plunging over the frequency",
+                        [panel, *svg.legend(names, 70, 442, 210), note])
