@@ -253,7 +253,6 @@ static bool has_no_polar(const void *base)
     return ((const struct network_entry *)base)->def.polar_hash[0] == '\0';
 }
 
-/* So that a member that is missing is named once, not its zero as well. */
 void network_oscillator_start(const struct reader *r, void *element)
 {
     (void)r;

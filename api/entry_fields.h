@@ -15,8 +15,9 @@ enum entry_group {
 extern const struct field material_fields[];           /* of struct material */
 extern const struct field polar_fields[];              /* of struct polar_entry */
 extern const struct field network_fields[];            /* of struct network_entry */
-void network_oscillator_start(const struct reader *r, void *element);
 extern const struct field network_oscillator_fields[]; /* of struct network_oscillator */
+/* Of an element of them, before it is read: what is missing is named once, not its zero as well. */
+void network_oscillator_start(const struct reader *r, void *element);
 
 /* By the enums of core; they end with NULL. */
 extern const char *const network_input_names[];

@@ -38,7 +38,7 @@ RESTRICTED_HEADERS = {
     "nlopt.h": (r"core/study/optimum\.c", r"tests/.*"),
     "cjson/cJSON.h": (r"(api|cli)/.*", r"tests/.*"),
     "curl/curl.h": (r"cli/http_client\.c", r"tests/.*"),
-    "pthread.h": (r"cli/study\.c", r"server/.*", r"api/(hdf5_lock|both_threads)\.c", r"tests/.*"),
+    "pthread.h": (r"cli/(study\.c|progress\.[ch])", r"server/.*", r"api/(hdf5_lock|both_threads)\.c", r"tests/.*"),
     "time.h": (r"(api|server|cli)/.*", r"tests/.*"),
     "unistd.h": (r"(server|cli)/.*", r"tests/.*"),
 }

@@ -46,9 +46,9 @@ def energy_unknown(study):
     """Median of what the flow computations do not know of the work of the pitch, by that work."""
     rows = build_loops.ask.rows(build_loops.CFD / "harmonics.csv")
     parts = build_loops.uncertainty.shares(rows)
-    names = {study.records[r]["name"] for r in study.pitching()}
-    return statistics.median(build_loops.uncertainty.of_pitch_work(row, parts) / abs(float(row["work_pitch"]))
-                             for row in rows if row["name"] in names)
+    works = {study.records[r]["name"]: abs(study.records[r]["work_pitch"]) for r in study.pitching()}
+    return statistics.median(build_loops.uncertainty.of_pitch_work(row, parts) / works[row["name"]]
+                             for row in rows if row["name"] in works)
 
 
 def energy(study):
@@ -66,9 +66,10 @@ def energy(study):
             errors = study.energy_errors(network, part)
             panel.box(i, [quantile(errors, q) for q in QUANTILES], colour)
         parts.append(panel)
-    note = ('<text x="70" y="412">box: quartiles and median; line: 10 to 90 %%; beyond 200 %% drawn at 200 %%; -100 %%: no work '
-            'at all, the polar alone; dashed: known within ±%.0f %% (median)</text>' % (100.0 * unknown))
-    return svg.document(960, 430, "Energy error of a cycle over the number of neurons", parts + [note])
+    notes = ("box: quartiles and median; line: 10 to 90 %; beyond 200 % drawn at 200 %; -100 %: no work at all, the polar alone",
+             "dashed: how well the flow computations know it, ±%.0f %% (median)" % (100.0 * unknown))
+    return svg.document(960, 446, "Energy error of a cycle over the number of neurons", parts + [
+        '<text x="70" y="%d">%s</text>' % (408 + 20 * k, note) for k, note in enumerate(notes)])
 
 
 def median_curve(rows, column):

@@ -36,8 +36,8 @@ class Networks(unittest.TestCase):
         self.assertEqual(self.study.median(MEMORY, "weights"), 352)
 
     def test_energy_error_falls_to_fifty_neurons(self):
-        """By 44 % in the records trained, by 36 % in those held out."""
-        for part, fall in (("trained", 0.44), ("held", 0.36)):
+        """By 56 % in the records trained, by 53 % in those held out."""
+        for part, fall in (("trained", 0.56), ("held", 0.53)):
             shares = [self.study.energy_share(("lm", n), part) for n in SIZES]
             self.assertAlmostEqual(shares[SIZES.index(50)] / shares[0], 1.0 - fall, delta=0.03)
 
@@ -73,8 +73,8 @@ class Networks(unittest.TestCase):
             curve = of(self.study.tables["curve"], PAPER, draw=float(draw))
             least, last = min(c["held"] for c in curve), max(curve, key=lambda c: c["epoch"])
             half = min(curve, key=lambda c: abs(c["epoch"] - 0.5 * last["epoch"]))
-            self.assertLess(last["held"], 1.07 * least)
-            self.assertLess(half["held"], 1.1 * least)
+            self.assertLess(last["held"], 1.02 * least)
+            self.assertLess(half["held"], 1.15 * least)
 
     def test_quantiles(self):
         self.assertEqual([quantile([3.0, 1.0, 2.0], q) for q in (0.0, 0.25, 0.5, 1.0)], [1.0, 1.5, 2.0, 3.0])

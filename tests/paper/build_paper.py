@@ -20,7 +20,7 @@ PAGE = ROOT / "docs" / "PAPER.md"
 DRAWINGS = ROOT / "docs" / "paper"
 TEXT = Path(__file__).resolve().parent / "text.md"
 COLOURS = (svg.BLUE, svg.BLACK, svg.RED, svg.ORANGE, svg.GREEN, svg.GREY)
-SWING = "twist swings by 1 deg"
+SWING = "swings by 1 deg"
 # Figs. 11, 12a and 13.
 MAPS = (("verdict", "verdict"), ("twist", "tip_twist_deg"), ("plunge", "tip_plunge_m"),
         ("torsion", "damping.tip_twist"), ("swing", "tip_twist_rms_deg"),
@@ -100,7 +100,7 @@ def draw_boundaries(curves):
         if points:
             panel.curve(*zip(*points), colour, 2)
     write("boundaries", svg.document(950, 470, "Speed up to which the beam is stable", [panel] + svg.legend(
-        [(colour, name) for (name, _), colour in zip(curves, COLOURS)], 70, 446, 140)))
+        [(colour, name) for (name, _), colour in zip(curves, COLOURS)], 40, 446, 150)))
 
 
 def speed_text(row):
