@@ -114,9 +114,10 @@ def model_errors(aerom, row):
 def collect(aerom, folds):
     rows, items = index(), []
     uncertain, _ = build_loops.work_uncertainties()
+    kinds = {row["name"]: build_loops.uncertainty.kind(row) for row in ask.rows(CFD / "harmonics.csv")}
     for name in folds["lags"]:
         item = model_errors(aerom, rows[name])
-        item["uncertain"] = uncertain.get(name)
+        item["uncertain"], item["kind"] = uncertain.get(name), kinds.get(name)
         for key in folds:
             row = folds[key][name]
             item[key] = {c: 100.0 * float(row[c + "_rms"]) / float(row[c + "_range"])
@@ -130,6 +131,8 @@ def groups(items):
     sines = [i for i in items if i["frequency"] is not None]
     slow = [i for i in sines if i["frequency"] <= 0.2]
     yield "sines to 8 deg", [i for i in sines if i["peak"] <= 8.0]
+    yield "those that reach below 3 deg", [i for i in sines if i["peak"] <= 8.0 and i["kind"] != build_loops.uncertainty.OPEN]
+    yield "those over the open bubble", [i for i in sines if i["peak"] <= 8.0 and i["kind"] == build_loops.uncertainty.OPEN]
     yield "slow sines to 8 deg", [i for i in slow if i["peak"] <= 8.0]
     yield "slow sines beyond", [i for i in slow if i["peak"] > 8.0]
     yield "fast sines to 8 deg", [i for i in sines if i not in slow and i["peak"] <= 8.0]
