@@ -30,11 +30,9 @@ static const struct command commands[] = {
     {"train", train_main,
      "FOLDER --output FILE.json [--name NAME] [--description TEXT] [--polar NAME|FILE.json]\n"
      "      [--base polar|attached|dynamic_stall] [--lags T,...] [--oscillators F:D,...]\n"
-     "      [--inputs NAME,...] [--hidden N] [--members N] [--folds N] [--samples N] [--anchors "
-     "N]\n"
-     "      [--optimiser lm|adam] [--epochs N] [--decay X] [--balance X] [--tolerance X] "
-     "[--symmetric]\n"
-     "      [--seed N]",
+     "      [--inputs NAME,...] [--hidden N] [--members N] [--folds N] [--samples N]\n"
+     "      [--anchors N] [--optimiser lm|adam] [--epochs N] [--decay X] [--balance X]\n"
+     "      [--tolerance X] [--symmetric] [--seed N]",
      "train a network on the records of a folder like data/cfd; prints the learning curve and the\n"
      "      errors on each record, as CSV"},
     {"submit", remote_submit, "CASE.json... [--wait]", "hand cases to the daemon, print their ids"},

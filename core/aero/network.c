@@ -122,7 +122,7 @@ static void check_frame_number(double value, double least, double most, const ch
     }
 }
 
-/* The rows of the inputs that need a lag, an oscillator or a base; `width` rows belong to one. */
+/* Inputs that need a lag or an oscillator; `width` of them belong to one. */
 static const struct needs {
     int first, count, width;
     const char *field;

@@ -161,12 +161,11 @@ static enum status add_record(const struct dataset_def *def, const struct polar 
     double *y = x + (ptrdiff_t)r->n * NET_IN_COUNT;
     flow_record_inputs(r, def->window, x);
     const enum status st = flow_record_march(r, &def->frame, polar, x, y);
-    if (st == ST_OK) {
-        flow_record_subtract(r, y);
-    }
-    for (int i = flow_record_first(r); st == ST_OK && i < r->n; i += stride(def, r)) {
+    const int first = flow_record_first(r), step = stride(def, r);
+    for (int i = first; st == ST_OK && i < r->n; i += step) {
         const double *in = x + num_at(0, i, NET_IN_COUNT);
         const double alpha = in[NET_IN_ALPHA];
+        flow_record_subtract(r, first, i, y + num_at(0, i, NET_OUT_COUNT));
         *outside_polar += polar_at(polar, alpha, r->value[num_at(i, FLOW_W, r->n)]).outside;
         put(in, y + num_at(0, i, NET_OUT_COUNT), weight, s);
     }

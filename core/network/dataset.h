@@ -67,10 +67,11 @@ MUST_CHECK enum status flow_record_march(const struct flow_record *r,
                                          const struct polar *polar, double *x, double *y);
 /* Coefficients of the polar at the instantaneous angle and plunge: y (NET_OUT_COUNT x n). */
 void flow_record_steady(const struct flow_record *r, const struct polar *polar, double *y);
-/* Increments: y (NET_OUT_COUNT x n), the coefficients of a model, becomes what the record has
- * beyond them. Of a sine that is, behind the start, the mean over its cycles at the same phase:
- * where vortices are shed at a frequency of their own cycles differ, and no motion tells how. */
-void flow_record_subtract(const struct flow_record *r, double *y);
+/* Increment of sample i: y (NET_OUT_COUNT), the coefficients of a model, becomes what the record
+ * has beyond them. Of a sine that is, from sample `first` on (flow_record_first), the mean over its
+ * cycles at the same phase: where vortices are shed at a frequency of their own cycles differ, and
+ * no motion tells how. Time goes with the number of cycles. */
+void flow_record_subtract(const struct flow_record *r, int first, int i, double *y);
 
 struct dataset_def {
     const struct polar_def *polar; /* borrowed, checked */

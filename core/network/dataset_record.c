@@ -257,17 +257,12 @@ static double phase_mean(const struct flow_record *r, enum flow_row row, int fir
     return sum / (before + behind + 1);
 }
 
-void flow_record_subtract(const struct flow_record *r, double *y)
+void flow_record_subtract(const struct flow_record *r, int first, int i, double *y)
 {
     static const enum flow_row row[NET_OUT_COUNT] = {
         [NET_OUT_CL] = FLOW_CL, [NET_OUT_CM] = FLOW_CM, [NET_OUT_CD] = FLOW_CD};
-    const int first = flow_record_first(r);
-    for (int i = 0; i < r->n; i++) {
-        for (int o = 0; o < NET_OUT_COUNT; o++) {
-            double *v = y + num_at(o, i, NET_OUT_COUNT);
-            *v = (r->period > 0.0 && i >= first ? phase_mean(r, row[o], first, i)
-                                                : value(r, row[o], i)) -
-                 *v;
-        }
+    const bool repeats = r->period > 0.0 && i >= first;
+    for (int o = 0; o < NET_OUT_COUNT; o++) {
+        y[o] = (repeats ? phase_mean(r, row[o], first, i) : value(r, row[o], i)) - y[o];
     }
 }

@@ -95,7 +95,10 @@ static enum status group_build(const struct dataset_def *def, const struct polar
         double *y = in + (ptrdiff_t)r->n * NET_IN_COUNT;
         flow_record_inputs(r, def->window, in);
         flow_record_steady(r, polar, y);
-        flow_record_subtract(r, y);
+        const int first = flow_record_first(r);
+        for (int k = 0; k < r->n; k++) {
+            flow_record_subtract(r, first, k, y + num_at(0, k, NET_OUT_COUNT));
+        }
         for (int side = 0; side < 2; side++) {
             const double sign = side == 0 ? 1.0 : -1.0;
             const int stride = lstm_stride(r, step);

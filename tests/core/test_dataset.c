@@ -96,7 +96,9 @@ static void increments_of_a_sine_are_means_over_its_cycles(void **state)
     for (int periodic = 0; periodic < 2; periodic++) {
         r.period = periodic ? 1.0 / f : 0.0;
         memset(y, 0, N * NET_OUT_COUNT * sizeof *y);
-        flow_record_subtract(&r, y);
+        for (int i = 0; i < N; i++) {
+            flow_record_subtract(&r, first, i, y + num_at(0, i, NET_OUT_COUNT));
+        }
         for (int i = first; i < N; i++) {
             const double phase = 0.5 * omega * i * step, swing = size * sin(phase);
             const double cl = *at(&r, FLOW_CL, i) - (periodic ? swing : 0.0);

@@ -34,7 +34,7 @@ CELLS = "7"  # of the LSTM: as many weights as the network of the paper
 KNEE_DEG = 12.0  # beyond, the mesh of the records loses the vortices at rest
 SETTLED = 12.0  # broadband records count from here on, in c/V; as aerom train
 MODELS = (("none", "quasi-steady"), ("attached", "attached"), ("dynamic_stall", "dynamic stall"))
-NETS = (("paper", "network of the paper"), ("lstm", "LSTM"), ("lags", "network with lags"))
+NETS = (("paper", "network of the paper"), ("lstm", "LSTM"), ("lags", "network with memory"))
 SPEEDS = (3.0, 4.0, 5.0, 6.0, 7.0)
 ANGLES = (-60, -45, 0, 30, 45)
 STEPS = (2e-4, 1e-4)
@@ -187,7 +187,7 @@ def work_table(items):
 
 
 def record_table(items):
-    yield "| record | peak | work | dynamic stall: c_l, c_m, work | network with lags: c_l, c_m, work |"
+    yield "| record | peak | work | dynamic stall: c_l, c_m, work | network with memory: c_l, c_m, work |"
     yield "|---|---|---|---|---|"
     for i in sorted(items, key=lambda i: (i["frequency"] is None, i["peak"])):
         cells = ["`%s`" % i["name"], "%.1f deg" % i["peak"], "%+.5f" % i["work"] + (" ± %.5f" % i["uncertain"] if i["uncertain"] else "")]
