@@ -114,10 +114,11 @@ static void check_frame_number(double value, double least, double most, const ch
                                const char *where, int k, const char *member, const char *expected,
                                struct failure_list *out)
 {
-    char at[160];
+    char at[160], got[32];
     (void)snprintf(at, sizeof at, "%s/%s/%d%s", pointer, where, k, member);
+    (void)snprintf(got, sizeof got, "%g", value);
     if (!(value >= least && value <= most)) {
-        failure_set(failure_add(out), ST_INVALID, at, "out_of_range", expected, NULL,
+        failure_set(failure_add(out), ST_INVALID, at, "out_of_range", expected, got,
                     "entry %d of %s is not admissible", k, where);
     }
 }

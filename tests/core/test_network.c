@@ -278,6 +278,11 @@ static void inputs_need_their_oscillator(void **state)
     static struct failure_list none;
     network_def_check(&d, "/n", &none);
     assert_int_equal(none.total, 0);
+    static struct failure_list shown;
+    d.frame.oscillator[0].damping = 1.5;
+    network_def_check(&d, "/n", &shown);
+    assert_string_equal(shown.item[0].got, "1.5");
+    d.frame.oscillator[0].damping = 0.1;
     static const double wrong[] = {0.0, -1.0, 1.0, 1e3, (double)NAN};
     for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
         d.frame.oscillator[1].damping = wrong[k];
