@@ -203,7 +203,7 @@ def hull_share(found, fastest):
 
 
 def middle_speed(rows):
-    """Between the lowest and the highest boundary: some angles are stable there, some are not."""
+    """Between the lowest and the highest boundary: some angles are beyond theirs there, some are not."""
     found = [row["boundary"] for row in rows if row["boundary"] is not None]
     return round(0.5 * (min(found) + max(found)), 2)
 

@@ -131,8 +131,9 @@ def groups(items):
     sines = [i for i in items if i["frequency"] is not None]
     slow = [i for i in sines if i["frequency"] <= 0.2]
     yield "sines to 8 deg", [i for i in sines if i["peak"] <= 8.0]
-    yield "those that reach below 3 deg", [i for i in sines if i["peak"] <= 8.0 and i["kind"] != build_loops.uncertainty.OPEN]
-    yield "those over the open bubble", [i for i in sines if i["peak"] <= 8.0 and i["kind"] == build_loops.uncertainty.OPEN]
+    attaching = "those that reach below %g deg" % build_loops.uncertainty.OPEN_DEG
+    for title, is_open in ((attaching, False), ("those over the open bubble", True)):
+        yield title, [i for i in sines if i["peak"] <= 8.0 and (i["kind"] == build_loops.uncertainty.OPEN) == is_open]
     yield "slow sines to 8 deg", [i for i in slow if i["peak"] <= 8.0]
     yield "slow sines beyond", [i for i in slow if i["peak"] > 8.0]
     yield "fast sines to 8 deg", [i for i in sines if i not in slow and i["peak"] <= 8.0]
