@@ -39,20 +39,30 @@ static bool set_inputs(const char *list, struct network_def *net)
     return net->n_in > 0;
 }
 
+/* Takes a number, and the character behind it that ends it, off a list. */
+static bool take_number(const char **list, char end, double *value)
+{
+    char *behind = NULL;
+    *value = strtod(*list, &behind);
+    if (behind == *list || (*behind != end && *behind != '\0')) {
+        return false;
+    }
+    *list = behind + (*behind == end);
+    return true;
+}
+
 /* Time constants separated by commas. */
 static bool set_lags(const char *list, struct network_frame *frame)
 {
     const char *p = list != NULL ? list : "";
     while (*p != '\0') {
-        char *end = NULL;
-        const double value = strtod(p, &end);
-        if (end == p || (*end != ',' && *end != '\0') || frame->n_lag == NETWORK_LAGS) {
+        double value = 0.0;
+        if (!take_number(&p, ',', &value) || frame->n_lag == NETWORK_LAGS) {
             (void)fprintf(stderr, "aerom: --lags: at most %d time constants in c/V: '%s'\n",
                           NETWORK_LAGS, list);
             return false;
         }
         frame->lag[frame->n_lag++] = value;
-        p = end + (*end == ',');
     }
     return true;
 }
@@ -63,17 +73,13 @@ static bool set_oscillators(const char *list, struct network_frame *frame)
     const char *p = list != NULL ? list : "";
     while (*p != '\0') {
         struct network_oscillator o = {0};
-        char *middle = NULL, *end = NULL;
-        o.frequency = strtod(p, &middle);
-        o.damping = middle != p && *middle == ':' ? strtod(middle + 1, &end) : 0.0;
-        if (end == NULL || end == middle + 1 || (*end != ',' && *end != '\0') ||
+        if (!take_number(&p, ':', &o.frequency) || !take_number(&p, ',', &o.damping) ||
             frame->n_oscillator == NETWORK_OSCILLATORS) {
             (void)fprintf(stderr, "aerom: --oscillators: at most %d of f c/V:damping ratio: '%s'\n",
                           NETWORK_OSCILLATORS, list);
             return false;
         }
         frame->oscillator[frame->n_oscillator++] = o;
-        p = end + (*end == ',');
     }
     return true;
 }

@@ -15,38 +15,47 @@ static const struct network_frame full = {.base = NETWORK_ON_STALL,
                                           .n_oscillator = 2,
                                           .oscillator = {{0.68, 0.1}, {0.9, 0.7}}};
 
+static const double ramp_chord[2] = {0.1, 0.25}, ramp_speed = 5.0;
+
+/* The inputs of two stations after 20 steps in which alpha rises from `from` at 0.2 a second and
+ * the pitch rate falls from 0.3 at 0.1. Returns the time. */
+static double ramp(double step, double from, double in[2 * NET_IN_COUNT])
+{
+    struct network_memory m;
+    double alpha[2] = {from, from}, pitch[2] = {0.3, 0.3}, t = 0.0;
+    assert_ok(network_memory_init(2, ramp_chord, ramp_speed, step, &full, &m));
+    network_memory_steady(&m, alpha, pitch, in);
+    for (int i = 0; i < 20; i++) {
+        t += step;
+        for (int s = 0; s < 2; s++) {
+            alpha[s] = from + 0.2 * t;
+            pitch[s] = 0.3 - 0.1 * t;
+        }
+        network_memory_step(&m, alpha, pitch, in);
+    }
+    network_memory_done(&m);
+    return t;
+}
+
 /* u = rate t from rest: x = rate (t - T (1 - e^(-t/T))), whatever the step. */
 static void lags_of_a_ramp(void **state)
 {
     (void)state;
-    const double chord[2] = {0.1, 0.25}, speed = 5.0;
     static const double step[] = {1e-4, 0.03, 0.7};
     for (size_t k = 0; k < sizeof step / sizeof step[0]; k++) {
-        struct network_memory l;
-        double in[2 * NET_IN_COUNT], alpha[2] = {0.0, 0.0}, pitch[2] = {0.3, 0.3};
-        assert_ok(network_memory_init(2, chord, speed, step[k], &full, &l));
-        network_memory_steady(&l, alpha, pitch, in);
-        double t = 0.0;
-        for (int i = 0; i < 20; i++) {
-            t += step[k];
-            for (int s = 0; s < 2; s++) {
-                alpha[s] = 0.2 * t;
-                pitch[s] = 0.3 - 0.1 * t;
-            }
-            network_memory_step(&l, alpha, pitch, in);
-        }
+        double in[2 * NET_IN_COUNT];
+        const double t = ramp(step[k], 0.0, in);
         for (int s = 0; s < 2; s++) {
             for (int lag = 0; lag < full.n_lag; lag++) {
-                const double time = full.lag[lag] * chord[s] / speed;
+                const double time = full.lag[lag] * ramp_chord[s] / ramp_speed;
                 const double behind = t + time * expm1(-t / time);
                 assert_near_abs(in[num_at(s, NET_IN_ALPHA_LAG_1 + lag, 2)], 0.2 * behind, 1e-13);
                 assert_near_abs(in[num_at(s, NET_IN_PITCH_LAG_1 + lag, 2)], 0.3 - 0.1 * behind,
                                 1e-13);
             }
             assert_true(in[num_at(s, NET_IN_ALPHA_LAG_4, 2)] == 0.0); /* there are three */
-            assert_true(in[num_at(s, NET_IN_ALPHA, 2)] == alpha[s]);
+            assert_true(in[num_at(s, NET_IN_ALPHA, 2)] == 0.2 * t);
         }
-        network_memory_done(&l);
     }
 }
 
@@ -62,28 +71,16 @@ static void swing_of_a_ramp(double w, double zeta, double t, double *x, double *
 static void oscillators_of_a_ramp(void **state)
 {
     (void)state;
-    const double chord[2] = {0.1, 0.25}, speed = 5.0;
     static const double step[] = {1e-4, 0.003, 0.07};
     for (size_t k = 0; k < sizeof step / sizeof step[0]; k++) {
-        struct network_memory m;
-        double in[2 * NET_IN_COUNT], alpha[2] = {0.4, 0.4}, pitch[2] = {0.3, 0.3};
-        assert_ok(network_memory_init(2, chord, speed, step[k], &full, &m));
-        network_memory_steady(&m, alpha, pitch, in);
-        double t = 0.0;
-        for (int i = 0; i < 20; i++) {
-            t += step[k];
-            for (int s = 0; s < 2; s++) {
-                alpha[s] = 0.4 + 0.2 * t;
-                pitch[s] = 0.3 - 0.1 * t;
-            }
-            network_memory_step(&m, alpha, pitch, in);
-        }
+        double in[2 * NET_IN_COUNT];
+        const double t = ramp(step[k], 0.4, in);
         for (int s = 0; s < 2; s++) {
             for (int o = 0; o < full.n_oscillator; o++) {
                 const struct network_oscillator *osc = &full.oscillator[o];
                 double x = 0.0, rate = 0.0;
-                swing_of_a_ramp(2.0 * NUM_PI * osc->frequency * speed / chord[s], osc->damping, t,
-                                &x, &rate);
+                swing_of_a_ramp(2.0 * NUM_PI * osc->frequency * ramp_speed / ramp_chord[s],
+                                osc->damping, t, &x, &rate);
                 const int a = NET_IN_ALPHA_OSCILLATOR_1 + 2 * o;
                 const int p = NET_IN_PITCH_OSCILLATOR_1 + 2 * o;
                 assert_near_abs(in[num_at(s, a, 2)], 0.4 + 0.2 * x, 1e-13);
@@ -92,7 +89,6 @@ static void oscillators_of_a_ramp(void **state)
                 assert_near_abs(in[num_at(s, p + 1, 2)], -0.1 * rate, 1e-13);
             }
         }
-        network_memory_done(&m);
     }
 }
 

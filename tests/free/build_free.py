@@ -263,12 +263,6 @@ def histories(items):
     return sheet("Sections on springs: angle over time", 66 + 290 * ((len(items) + 1) // 2), parts)
 
 
-def mark(panel, x, y, error, fill=svg.BLACK):
-    panel.curve([x, x], [y - error, y + error], svg.BLACK, 1.2)
-    panel.svg.append('<circle cx="%.1f" cy="%.1f" r="4" fill="%s" stroke="%s"/>' % (
-        panel.x(x), panel.y(y), fill, svg.BLACK))
-
-
 def scan(aerom, items, own, error):
     """Growth and limit cycle of the models over the reduced velocity, marks with error bars where the flow was
     computed: open ones were still growing."""
@@ -294,9 +288,9 @@ def scan(aerom, items, own, error):
     for item in items:
         u = 1.0 / float(item["row"]["f_pitch"])
         if is_push(item["row"]):
-            mark(rates, u, item["cfd"]["growth"], error["growth"])
+            rates.mark(u, item["cfd"]["growth"], error["growth"])
         if item["cfd"]["end"] > 2.0:
-            mark(sizes, u, item["cfd"]["end"], error["end"] * item["cfd"]["end"],
+            sizes.mark(u, item["cfd"]["end"], error["end"] * item["cfd"]["end"],
                  svg.BLACK if abs(item["cfd"]["end_growth"]) <= STEADY else "#ffffff")
     return sheet("Growth of small swings and limit cycles over the reduced velocity", 340, [rates, sizes])
 

@@ -12,8 +12,8 @@ SLOWEST = 0.25              # f c/V
 DRAWN_MEAN, DRAWN_SWING = 5.0, 0.5  # deg, of the curves
 FREQUENCIES = [0.2 * 1.04 ** k for k in range(58)]
 THEORY = ("--dynamic", "attached", "--polar", "flat-plate-linear")
-MODELS = ((("--dynamic", "dynamic_stall"), "dynamic stall", svg.GREEN),
-          (("--dynamic", "network", "--network", "plate-4pct"), "network", svg.ORANGE))
+MODELS = ((("--dynamic", "dynamic_stall"), svg.GREEN),
+          (("--dynamic", "network", "--network", "plate-4pct"), svg.ORANGE))
 
 
 def work(aerom, dynamic, mean_deg, plunge, frequency):
@@ -56,16 +56,14 @@ def drawing(aerom, rows):
                       svg.Axis(-3.0, 5.0, label="damping by that of thin-aerofoil theory"),
                       "Plunging a little about 3.5 to 8.5 deg: below zero the flow feeds it")
     panel.curve((0.2, 1.9), (0.0, 0.0), svg.GREY, 1.0)
-    for dynamic, _, colour in MODELS:
-        plunge = [math.radians(DRAWN_SWING) / (2.0 * math.pi * f) for f in FREQUENCIES]
-        panel.curve(FREQUENCIES, [work(aerom, dynamic, DRAWN_MEAN, w, f) / work(aerom, THEORY, DRAWN_MEAN, w, f)
-                                  for w, f in zip(plunge, FREQUENCIES)], colour, 2)
+    motions = [(DRAWN_MEAN, math.radians(DRAWN_SWING) / (2.0 * math.pi * f), f) for f in FREQUENCIES]
+    theory = [work(aerom, THEORY, *m) for m in motions]
+    for dynamic, colour in MODELS:
+        panel.curve(FREQUENCIES, [work(aerom, dynamic, *m) / t for m, t in zip(motions, theory)], colour, 2)
     for r in rows:
         if r["swing"] < 3.0:
-            panel.curve((r["frequency"],) * 2, (r["record"] - r["error"], r["record"] + r["error"]), svg.BLACK, 1.2)
-            for value, fill in ((r["record"], svg.BLACK), (r["network"], svg.ORANGE)):
-                panel.svg.append('<circle cx="%.1f" cy="%.1f" r="4" fill="%s" stroke="%s"/>' % (
-                    panel.x(r["frequency"]), panel.y(value), fill, svg.BLACK))
+            panel.mark(r["frequency"], r["record"], r["error"])
+            panel.mark(r["frequency"], r["network"], fill=svg.ORANGE)
     names = [(svg.BLACK, "flow computation"), (svg.ORANGE, "network about 5 deg"), (svg.GREEN, "dynamic stall about 5 deg")]
     note = '<text x="70" y="466">orange marks: the motion of the record, by a network not trained on it</text>'
     return svg.document(760, 484, "Damping of small plunging over the frequency",

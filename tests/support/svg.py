@@ -90,6 +90,12 @@ class Panel:
             "polygon" if closed else "polyline", points, colour, width,
             ' stroke-dasharray="%s"' % dash if dash else ""))
 
+    def mark(self, x, y, error=0.0, fill=BLACK):
+        """A point with its error bar."""
+        if error:
+            self.curve([x, x], [y - error, y + error], BLACK, 1.2)
+        self.svg.append('<circle cx="%.1f" cy="%.1f" r="4" fill="%s" stroke="%s"/>' % (self.x(x), self.y(y), fill, BLACK))
+
     def box(self, x, quantiles, colour, half=9, shift=0.0):
         """Whiskers, quartiles and median of five quantiles, `shift` pixels beside x."""
         middle = self.x(x) + shift
